@@ -26,6 +26,11 @@ using plc::TriangleSet;
 constexpr std::string_view stage = "cut crossings";
 constexpr std::size_t most_rounds = 16;  // general positions need one, welds mostly up to eight
 
+/// More of them are none that anybody meant: cuts along accidental intersections make ever more.
+std::size_t most_triangles(std::size_t given, std::size_t pairs) {
+  return 16 * given + 32 * pairs + 1000;
+}
+
 /// Leaves triangles that have an area, are pairwise different and have no vertices on them. Returns the pairs that may
 /// cross.
 std::vector<TrianglePair> clean(std::span<const Point3> vertices, TriangleSet& triangles, Fins fins) {
@@ -53,8 +58,8 @@ VertexCuts number_vertices(const std::vector<Arrangement>& arrangements, plc::Un
   return cuts;
 }
 
-VertexCuts number_vertices(const Welds& welds, plc::UncheckedPlc& soup) {
-  NearVertexFinder vertices(soup);
+VertexCuts number_vertices(const Welds& welds, double reach, plc::UncheckedPlc& soup) {
+  NearVertexFinder vertices(soup, reach);
   VertexCuts cuts;
   for (const auto& [edge, p] : welds.on_edges) cuts.on_edges.push_back({edge, vertices.at(p)});
   for (const WeldedEdge& e : welds.in_triangles)
@@ -104,27 +109,35 @@ void mark_near(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup, std:
 /// Finds what should touch and does not, once something near it was to be cut.
 class WeldSearch {
  public:
+  explicit WeldSearch(const CutOptions& options) : is_near_everywhere_(options.weld_everywhere) {
+    reach.edges = std::max(reach.edges, options.tolerance);
+    reach.vertices = 2 * reach.edges;
+  }
+
   Welds find(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup) {
     mark_near(cuts, soup, is_near);
-    Welds welds = find_welds(soup.plc.vertices, soup.triangles, is_near);
+    if (is_near_everywhere_) std::ranges::fill(is_near, std::uint8_t{1});
+    Welds welds = find_welds(soup.plc.vertices, soup.triangles, is_near, reach);
     if (welds.empty() || is_near_everywhere_) return welds;
     // What should touch in one place may be so all around.
     is_near_everywhere_ = true;
     std::ranges::fill(is_near, std::uint8_t{1});
-    return find_welds(soup.plc.vertices, soup.triangles, is_near);
+    return find_welds(soup.plc.vertices, soup.triangles, is_near, reach);
   }
 
+  WeldReach reach;
   std::vector<std::uint8_t> is_near;  ///< by vertex: of triangles that were or are to be cut
 
  private:
-  bool is_near_everywhere_ = false;
+  bool is_near_everywhere_;
 };
 
 }  // namespace
 
-CutCounts cut_crossings(plc::UncheckedPlc& soup, const Progress& progress) {
+CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, const Progress& progress) {
   CutCounts counts;
-  WeldSearch search;
+  WeldSearch search(options);
+  const std::size_t given = soup.triangles.size();
   for (;; ++counts.rounds) {
     report(progress, stage, counts.rounds, most_rounds);
     const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be meant
@@ -132,7 +145,8 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const Progress& progress) {
     const Cuts found = find_cuts(soup.plc.vertices, soup.triangles, close);
     counts.left = found.pairs;
     if (counts.rounds == 0) counts.pairs = found.pairs;
-    if (counts.pairs == 0 || counts.rounds == most_rounds) break;
+    if (counts.pairs == 0 && !options.weld_everywhere) break;
+    if (counts.rounds == most_rounds || soup.triangles.size() > most_triangles(given, counts.pairs)) break;
     const Welds welds = search.find(found.cuts, soup);
     if (found.pairs == 0 && welds.empty()) break;
     plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
@@ -140,7 +154,7 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const Progress& progress) {
     if (!welds.equal.empty())
       merge_vertices(welds.equal, soup, search.is_near);
     else if (!welds.empty())
-      counts.cut += cut_along(number_vertices(welds, soup), soup);
+      counts.cut += cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
     else
       counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
   }

@@ -15,6 +15,12 @@ struct CutCounts {
   std::size_t left = 0;    ///< pairs that still meet after the last round
 };
 
+struct CutOptions {
+  double tolerance = 0;          ///< in grid units: what is this near to each other should touch; a few quanta always
+                                 ///< are, because of rounding
+  bool weld_everywhere = false;  ///< also where nothing crosses
+};
+
 /// Cuts triangles along their intersections, so that they meet only in common vertices and edges. Triangles that become
 /// equal are merged: the first one stays. Triangles without area are dropped.
 ///
@@ -22,11 +28,11 @@ struct CutCounts {
 /// triangles that have it, so the surface stays closed where it was. What rounding makes cross is cut in another round.
 ///
 /// Facets that should touch, such as those of turned solids that stand on each other, do so only within the rounding of
-/// their vertices. Where triangles cross, what is within a few quanta of each other is welded before it is cut. This
+/// their vertices. Where triangles cross, what is within the tolerance of each other is welded before it is cut. This
 /// merges vertices and renumbers them.
 ///
 /// A soup without crossings, vertices on triangles, equal triangles and triangles without area stays as it is. Segments
 /// that are edges are divided with these; other segments may still cross triangles.
-CutCounts cut_crossings(plc::UncheckedPlc& soup, const Progress& progress = {});
+CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::repair

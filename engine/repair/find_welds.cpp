@@ -19,23 +19,6 @@ namespace {
 
 using plc::VertexTriple;
 
-bool are_near(const Point3& p, const Point3& q) {
-  return squared_length(p - q) <= reach_of_edges * reach_of_edges;
-}
-
-bool should_be_one(const Point3& p, const Point3& q) {
-  return squared_length(p - q) <= reach_of_vertices * reach_of_vertices;
-}
-
-bool is_near_segment(const Point3& p, const Point3& a, const Point3& b) {
-  return are_near(p, closest_on_segment(p, a, b));
-}
-
-bool is_near_triangle(const Point3& p, const std::array<Point3, 3>& t) {
-  const auto [u, v, w] = closest_on_triangle(p, t);
-  return are_near(p, u * t[0] + v * t[1] + w * t[2]);
-}
-
 /// An edge, from its smaller end to its greater.
 struct EdgeEnds {
   VertexId a, b;
@@ -66,8 +49,8 @@ std::optional<std::array<double, 2>> nearest_on_lines(const Point3& p, const Poi
 /// Looks at pairs of triangles.
 class WeldFinder {
  public:
-  WeldFinder(std::span<const Point3> vertices, const plc::TriangleSet& triangles)
-      : vertices_(vertices), triangles_(triangles) {}
+  WeldFinder(std::span<const Point3> vertices, const plc::TriangleSet& triangles, const WeldReach& reach)
+      : vertices_(vertices), triangles_(triangles), reach_(reach) {}
 
   void look_at(std::uint32_t s, std::uint32_t t, Welds& welds) const {
     Pair pair;
@@ -80,6 +63,18 @@ class WeldFinder {
   }
 
  private:
+  bool are_near(const Point3& p, const Point3& q) const { return squared_length(p - q) <= reach_.edges * reach_.edges; }
+  bool should_be_one(const Point3& p, const Point3& q) const {
+    return squared_length(p - q) <= reach_.vertices * reach_.vertices;
+  }
+  bool is_near_segment(const Point3& p, const Point3& a, const Point3& b) const {
+    return are_near(p, closest_on_segment(p, a, b));
+  }
+  bool is_near_triangle(const Point3& p, const std::array<Point3, 3>& t) const {
+    const auto [u, v, w] = closest_on_triangle(p, t);
+    return are_near(p, u * t[0] + v * t[1] + w * t[2]);
+  }
+
   struct Pair {
     Welds welds;
     bool is_inexact = false;  ///< is anything near, but not at the same place?
@@ -98,7 +93,7 @@ class WeldFinder {
   /// Looks for vertices and edges of the one at the other.
   void look_from(std::uint32_t one, std::uint32_t other, Pair& pair) const {
     const VertexTriple &c = triangles_.corners[one], &t = triangles_.corners[other];
-    const Box box = expanded(bounding_box(plc::points_of(vertices_, t)), reach_of_vertices);
+    const Box box = expanded(bounding_box(plc::points_of(vertices_, t)), reach_.vertices);
     std::array<std::optional<Mask>, 3> at;
     for (std::size_t k = 0; k < 3; ++k)
       if (box.meets(box_of(vertices_[c[k]]))) at[k] = look_at_vertex(c[k], other, pair);
@@ -139,7 +134,7 @@ class WeldFinder {
   void look_at_edge(const EdgeEnds& e, std::optional<Mask> at_a, std::optional<Mask> at_b, std::uint32_t triangle,
                     Pair& pair) const {
     const Point3 &a = vertices_[e.a], &b = vertices_[e.b];
-    const Box box = expanded(hull(box_of(a), box_of(b)), reach_of_edges);
+    const Box box = expanded(hull(box_of(a), box_of(b)), reach_.edges);
     std::vector<Near> near;
     if (at_a) near.push_back({0, a, *at_a});
     if (at_b) near.push_back({1, b, *at_b});
@@ -162,7 +157,7 @@ class WeldFinder {
   std::optional<std::pair<double, Point3>> crossing(const EdgeEnds& e, const EdgeEnds& f, Pair& pair) const {
     if (e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return std::nullopt;
     const Point3 &a = vertices_[e.a], &b = vertices_[e.b], &c = vertices_[f.a], &d = vertices_[f.b];
-    if (!expanded(hull(box_of(a), box_of(b)), reach_of_edges).meets(hull(box_of(c), box_of(d)))) return std::nullopt;
+    if (!expanded(hull(box_of(a), box_of(b)), reach_.edges).meets(hull(box_of(c), box_of(d)))) return std::nullopt;
     if (is_near_segment(a, c, d) || is_near_segment(b, c, d) || is_near_segment(c, a, b) || is_near_segment(d, a, b))
       return std::nullopt;
     const auto positions = nearest_on_lines(a, b - a, c, d - c);
@@ -184,23 +179,24 @@ class WeldFinder {
 
   std::span<const Point3> vertices_;
   const plc::TriangleSet& triangles_;
+  WeldReach reach_;
 };
 
 }  // namespace
 
 Welds find_welds(std::span<const Point3> vertices, const plc::TriangleSet& triangles,
-                 const std::vector<std::uint8_t>& is_near) {
+                 const std::vector<std::uint8_t>& is_near, const WeldReach& reach) {
   std::vector<std::uint32_t> sought;
   RawVector<Box> boxes;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     const auto& [a, b, c] = triangles.corners[t];
     if (!is_near[a] && !is_near[b] && !is_near[c]) continue;
     sought.push_back(t);
-    boxes.push_back(expanded(bounding_box(plc::points_of(vertices, triangles.corners[t])), 0.5 * reach_of_vertices));
+    boxes.push_back(expanded(bounding_box(plc::points_of(vertices, triangles.corners[t])), 0.5 * reach.vertices));
   }
   const RawVector<Box> own = boxes;
   const BoxTree tree(std::move(boxes));
-  const WeldFinder finder(vertices, triangles);
+  const WeldFinder finder(vertices, triangles, reach);
   const std::vector<Welds> parts = parallel_chunks(sought.size(), 256, [&](std::size_t begin, std::size_t end) {
     Welds welds;
     for (std::size_t i = begin; i < end; ++i)

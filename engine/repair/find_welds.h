@@ -11,12 +11,12 @@
 
 namespace ccdt::repair {
 
-/// Vertices that are nearer to each other than this, in grid units, should be one.
-inline constexpr double reach_of_vertices = 8 * numbers::DyadicGrid::quantum;
-
-/// Vertices and edges that are nearer than this to edges and triangles should be on them. Rounding moves each point by
-/// less than a quantum. The reach of vertices is greater: a vertex that is to be on an edge is not beside its end.
-inline constexpr double reach_of_edges = 4 * numbers::DyadicGrid::quantum;
+/// How near to each other things should touch, in grid units.
+struct WeldReach {
+  double edges = 4 * numbers::DyadicGrid::quantum;  ///< vertices and edges at edges and triangles. Rounding moves each
+                                                    ///< point by less than a quantum
+  double vertices = 2 * edges;  ///< greater: a vertex that is to be on an edge is not beside its end
+};
 
 /// A part of an edge, or a vertex (if a = b), that runs within a triangle but for the rounding to the grid.
 struct WeldedEdge {
@@ -40,6 +40,6 @@ struct Welds {
 ///
 /// \param is_near  by vertex: only triangles with such a corner are looked at
 Welds find_welds(std::span<const Point3> vertices, const plc::TriangleSet& triangles,
-                 const std::vector<std::uint8_t>& is_near);
+                 const std::vector<std::uint8_t>& is_near, const WeldReach& reach);
 
 }  // namespace ccdt::repair

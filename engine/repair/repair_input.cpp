@@ -7,6 +7,7 @@
 #include "engine/base/box.h"
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/repair/close_gaps.h"
 #include "engine/repair/cut_crossings.h"
 #include "engine/repair/equal_triangles.h"
@@ -80,10 +81,11 @@ void check_something_is_left(const InputPlc& input, const plc::UncheckedPlc& sou
                    "give a surface that encloses something");
 }
 
-CutCounts cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, const Progress& progress,
-                        plc::UncheckedPlc& soup, StepList& steps) {
+CutCounts cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, bool weld_everywhere,
+                        const Progress& progress, plc::UncheckedPlc& soup, StepList& steps) {
   const OrientedSurface given{soup.plc.vertices, soup.triangles.corners};
-  const CutCounts cuts = cut_crossings(soup, progress);
+  const double tolerance = plc::tolerance_of(soup.plc, options.flatness);
+  const CutCounts cuts = cut_crossings(soup, {tolerance, weld_everywhere}, progress);
   steps.add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
   check_something_is_left(input, soup);
   if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts;
@@ -111,12 +113,15 @@ std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t v
 
 /// Turns the facets of a surface without crossings so that their normals point out of the domain. Facets inside stay as
 /// they are.
-void turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::UncheckedPlc& soup) {
+///
+/// \return  is the surface valid?
+bool turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::UncheckedPlc& soup) {
   try {
     const plc::Plc plc = assemble_plc(input, soup, options);
     turn_like(outward_triangles(plc), plc.vertices.size(), soup.triangles.corners);
+    return true;
   } catch (const InputError&) {
-    // Whoever checks the repaired input sees what is still wrong with it.
+    return false;  // whoever checks the repaired input sees what is still wrong with it
   }
 }
 
@@ -130,11 +135,16 @@ void repair_surface(Soup& soup, const plc::PlcOptions& options, const Progress& 
   std::size_t crossings = 0;
   for (int round = 0; round < most_rounds; ++round) {
     if (!close_surface(parts, steps) && round > 0) break;
-    const CutCounts cuts = cut_and_unite(soup.input, options, progress, parts, steps);
+    const CutCounts cuts = cut_and_unite(soup.input, options, false, progress, parts, steps);
     if (cuts.pairs > 0) are_comparable = false;
     crossings = cuts.left;
   }
-  if (crossings == 0) turn_outward(soup.input, options, parts);
+  if (crossings == 0 && !turn_outward(soup.input, options, parts)) {
+    // Facets may cover each other within the tolerance without a crossing.
+    are_comparable = false;
+    if (cut_and_unite(soup.input, options, true, progress, parts, steps).left == 0)
+      turn_outward(soup.input, options, parts);
+  }
   if (!are_comparable) return;
   std::vector<plc::VertexTriple> now = parts.triangles.corners;
   steps.add({"turned_facets", "facets turned", turn_like(as_given, parts.plc.vertices.size(), now)});
@@ -190,7 +200,7 @@ Repaired repair_input(const InputPlc& input, const RepairOptions& options, const
     join_open_edges(widest_gap(options, parts.plc), parts, steps);
     repair_surface(soup, plc_options, progress, steps);
   } else {
-    cut_and_unite(soup.input, plc_options, progress, parts, steps);
+    cut_and_unite(soup.input, plc_options, false, progress, parts, steps);
   }
   repaired.input = to_input(input, parts);
   report(progress, repair_stage, steps_of_repair, steps_of_repair);

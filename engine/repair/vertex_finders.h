@@ -9,7 +9,6 @@
 #include "engine/base/hash_table.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/integer_points.h"
-#include "engine/repair/find_welds.h"
 
 namespace ccdt::repair {
 
@@ -48,10 +47,11 @@ class VertexFinder {
   HashTable<plc::IntegerPoint, std::uint32_t, PointTraits> known_;
 };
 
-/// Finds the vertex that is nearest to a point, if it is within the reach of vertices, or makes one.
+/// Finds the vertex that is nearest to a point, if it is within reach, or makes one.
 class NearVertexFinder {
  public:
-  explicit NearVertexFinder(plc::UncheckedPlc& soup) : plc_(soup.plc), is_known_(soup.plc.vertices.size(), 0) {
+  NearVertexFinder(plc::UncheckedPlc& soup, double reach)
+      : plc_(soup.plc), reach_(reach), is_known_(soup.plc.vertices.size(), 0) {
     for (const plc::VertexTriple& t : soup.triangles.corners)
       for (const VertexId v : t)
         if (std::exchange(is_known_[v], 1) == 0) add(v);
@@ -60,7 +60,7 @@ class NearVertexFinder {
   VertexId at(const Point3& p) {
     const plc::IntegerPoint cell = cell_of(p);
     VertexId nearest;
-    double least = reach_of_vertices * reach_of_vertices;
+    double least = reach_ * reach_;
     for (std::int64_t x = cell[0] - 1; x <= cell[0] + 1; ++x)
       for (std::int64_t y = cell[1] - 1; y <= cell[1] + 1; ++y)
         for (std::int64_t z = cell[2] - 1; z <= cell[2] + 1; ++z) {
@@ -81,8 +81,8 @@ class NearVertexFinder {
   }
 
  private:
-  static plc::IntegerPoint cell_of(const Point3& p) {
-    const auto cell = [](double x) { return static_cast<std::int64_t>(std::floor(x / reach_of_vertices)); };
+  plc::IntegerPoint cell_of(const Point3& p) const {
+    const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach_)); };
     return {cell(p.x), cell(p.y), cell(p.z)};
   }
 
@@ -93,6 +93,7 @@ class NearVertexFinder {
   }
 
   plc::Plc& plc_;
+  double reach_;
   std::vector<char> is_known_;
   HashTable<plc::IntegerPoint, VertexId, PointTraits> last_in_cell_;
   std::vector<VertexId> before_;  // of a vertex: the one before it in its cell

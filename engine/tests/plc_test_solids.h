@@ -19,6 +19,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 inline void append(plc::InputPlc& to, const plc::InputPlc& from) {
   const auto offset = static_cast<std::uint32_t>(to.vertices.size());
   to.vertices.insert(to.vertices.end(), from.vertices.begin(), from.vertices.end());
+  if (!to.triangle_markers.empty() || !from.triangle_markers.empty()) {
+    to.triangle_markers.resize(to.triangles.size(), 0);
+    to.triangle_markers.insert(to.triangle_markers.end(), from.triangle_markers.begin(), from.triangle_markers.end());
+    to.triangle_markers.resize(to.triangles.size() + from.triangles.size(), 0);
+  }
   for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({a + offset, b + offset, c + offset});
 }
 

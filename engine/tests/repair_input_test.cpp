@@ -162,6 +162,31 @@ TEST(Repair, KeepsTheWallBetweenSolidsThatTouch) {
   EXPECT_EQ(repair::find_faults(result.input).regions, 2u);
 }
 
+TEST(Repair, JoinsTurnedSolidsThatTouchWithinTheRoundingOfSinglePrecision) {
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    plc::InputPlc input = box({0, 0, 0}, {10, 10, 10});
+    append(input, box({10, 2, 3}, {17, 8, 9}));
+    append(input, box({2, 2, 10}, {5, 12, 14}));
+    input = rotated(rotation(1, 0.1 * i, 0.7 - 0.02 * i, 0.3), input);
+    for (Point3& p : input.vertices) p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    const repair::Repaired result = repaired(input, 1000 + 7 * 6 * 6 + 3 * 10 * 4, 1e-5);
+    EXPECT_EQ(repair::find_faults(result.input).regions, 3u);
+  }
+}
+
+TEST(Repair, MergesCopiesThatAlmostCoverEachOther) {
+  for (const double shift : {1e-9, 1e-8}) {
+    SCOPED_TRACE(shift);
+    plc::InputPlc input = models::make_solid("sphere", 0.2);
+    input.triangle_markers.clear();
+    plc::InputPlc copy = input;
+    for (Point3& p : copy.vertices) p = p + Point3{shift, shift / 3, -shift / 2};
+    append(input, copy);
+    EXPECT_TRUE(repair::find_faults(repair::repair_input(input).input).is_valid());
+  }
+}
+
 TEST(Repair, LeavesAHollowBetweenOverlappingSolids) {
   // Six slabs that overlap at their rims enclose a box of 2 x 2 x 2.
   plc::InputPlc input = box({-1.5, -1.5, -1.5}, {1.5, 1.5, -1});
