@@ -151,12 +151,15 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
     if (found.pairs == 0 && welds.empty()) break;
     plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
     // Where triangles almost touch, their intersection is accidental. So they are welded first.
-    if (!welds.equal.empty())
+    if (!welds.equal.empty()) {
       merge_vertices(welds.equal, soup, search.is_near);
-    else if (!welds.empty())
-      counts.cut += cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
-    else
-      counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
+      continue;
+    }
+    const std::vector<plc::VertexTriple> before = soup.triangles.corners;
+    if (!welds.empty()) counts.cut += cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
+    if (soup.triangles.corners != before) continue;
+    if (found.pairs == 0) break;  // what is near to each other is welded as far as that is possible
+    counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
   }
   report(progress, stage, most_rounds, most_rounds);
   return counts;
