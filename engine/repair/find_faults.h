@@ -12,7 +12,9 @@ namespace ccdt::repair {
 /// The input is valid exactly if `plc::build_plc` accepts it after `plc::triangulate_bent_facets`. Only where vertices
 /// have no finite coordinates, or no facet has an area, nothing else is looked for.
 ///
+/// \param input     as it was read
 /// \param flatness  tolerance for flat facets, as that of the mesher
+/// \param progress  called repeatedly; throw from it to cancel
 Diagnosis find_faults(const plc::InputPlc& input, double flatness = usual_flatness, const Progress& progress = {});
 
 }  // namespace ccdt::repair
