@@ -243,7 +243,7 @@ TEST_F(Sweep, OfMeshersThatMisbehaveHasOneRowOfTheRightKindForEach) {
                      {"repetitions", 3},
                      {"warm_up", 0},
                      {"verify", true},
-                     {"limits", {{"seconds", 2}, {"bytes", 500'000'000}, {"disk_bytes", 50'000'000}}}};
+                     {"limits", {{"seconds", 8}, {"bytes", 500'000'000}, {"disk_bytes", 50'000'000}}}};
   write("spec.json", spec.dump());
   const Outcome outcome = run("sweep spec.json -o out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
