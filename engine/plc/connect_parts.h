@@ -17,8 +17,7 @@ namespace ccdt::plc {
 /// Splits triangles at the vertices that are on them, exactly.
 ///
 /// \param triangles  different, with an area. Those that are known to be faces of one simplicial complex have nothing
-/// in
-///                   common but corners and edges, and no vertex is on one: they are not tested with each other
+///                   in common but corners and edges, and no vertex is on one: they are not tested with each other
 /// \return  the pairs that may still have more in common than corners and edges
 std::vector<TrianglePair> make_conforming(std::span<const Point3> vertices, TriangleSet& triangles);
 

@@ -109,10 +109,8 @@ void mark_near(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup, std:
 /// Finds what should touch and does not, once something near it was to be cut.
 class WeldSearch {
  public:
-  explicit WeldSearch(const CutOptions& options) : is_near_everywhere_(options.weld_everywhere) {
-    reach.edges = std::max(reach.edges, options.tolerance);
-    reach.vertices = 2 * reach.edges;
-  }
+  explicit WeldSearch(const CutOptions& options)
+      : reach{std::max(WeldReach{}.edges, options.tolerance)}, is_near_everywhere_(options.weld_everywhere) {}
 
   Welds find(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup) {
     mark_near(cuts, soup, is_near);

@@ -45,11 +45,9 @@ std::vector<plc::VertexTriple> triangulate(std::span<const Point3> points, std::
   return triangles;
 }
 
-/// Do the triangles have the same orientation as the surface around them?
-bool fits(const std::vector<plc::VertexTriple>& filling, const plc::TriangleSet& triangles, const EdgeTable& edges,
-          VertexId a, VertexId b) {
-  const std::uint32_t neighbor = triangle_at(edges, a, b);
-  const bool along = plc::runs_along(triangles.corners[neighbor], a, b);
+/// Do the triangles face the same way as their neighbor across the edge ab?
+bool fits(const std::vector<plc::VertexTriple>& filling, const plc::VertexTriple& neighbor, VertexId a, VertexId b) {
+  const bool along = plc::runs_along(neighbor, a, b);
   return std::ranges::none_of(
       filling, [&](const plc::VertexTriple& t) { return along ? plc::runs_along(t, a, b) : plc::runs_along(t, b, a); });
 }
@@ -59,15 +57,15 @@ bool fits(const std::vector<plc::VertexTriple>& filling, const plc::TriangleSet&
 HoleCounts fill_holes(plc::UncheckedPlc& soup, Rims which) {
   const EdgeTable edges = plc::make_edge_table(soup.triangles.corners);
   HoleCounts counts;
-  const plc::TriangleSet around = soup.triangles;
   for (const std::vector<VertexId>& loop : find_rims(edges, which)) {
     const std::vector<plc::VertexTriple> filling = triangulate(soup.plc.vertices, loop);
     if (filling.empty()) continue;
-    const bool is_right = fits(filling, around, edges, loop[0], loop[1]);
     const std::uint32_t neighbor = triangle_at(edges, loop[0], loop[1]);
+    const int marker = soup.triangles.markers[neighbor];
+    const std::uint32_t number = soup.triangles.numbers[neighbor];
+    const bool is_right = fits(filling, soup.triangles.corners[neighbor], loop[0], loop[1]);
     for (const auto& [a, b, c] : filling)
-      soup.triangles.add(is_right ? plc::VertexTriple{a, b, c} : plc::VertexTriple{a, c, b}, around.markers[neighbor],
-                         around.numbers[neighbor]);
+      soup.triangles.add(is_right ? plc::VertexTriple{a, b, c} : plc::VertexTriple{a, c, b}, marker, number);
     ++counts.filled;
     counts.triangles += filling.size();
   }

@@ -36,10 +36,9 @@ std::vector<std::uint32_t> spread(std::uint32_t first, const plc::EdgeTable& edg
 
 }  // namespace
 
-std::size_t orient_shells(plc::UncheckedPlc& soup) {
+void orient_shells(plc::UncheckedPlc& soup) {
   const plc::EdgeTable edges = plc::make_edge_table(soup.triangles.corners);
   std::vector<Way> ways(soup.triangles.size(), Way::unknown);
-  std::size_t turned = 0;
   for (std::uint32_t first = 0; first < soup.triangles.size(); ++first) {
     if (ways[first] != Way::unknown) continue;
     const std::vector<std::uint32_t> part = spread(first, edges, ways);
@@ -50,13 +49,9 @@ std::size_t orient_shells(plc::UncheckedPlc& soup) {
       if (ways[t] == Way::turned) area_of_turned += own;
     }
     const Way minority = 2 * area_of_turned <= area ? Way::turned : Way::as_given;
-    for (const std::uint32_t t : part) {
-      if (ways[t] != minority) continue;
-      std::swap(soup.triangles.corners[t][1], soup.triangles.corners[t][2]);
-      ++turned;
-    }
+    for (const std::uint32_t t : part)
+      if (ways[t] == minority) std::swap(soup.triangles.corners[t][1], soup.triangles.corners[t][2]);
   }
-  return turned;
 }
 
 std::vector<plc::VertexTriple> outward_triangles(const plc::Plc& plc) {

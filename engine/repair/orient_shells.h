@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "engine/plc/build_plc.h"
@@ -10,9 +9,7 @@ namespace ccdt::repair {
 
 /// Turns triangles so that neighbors across edges of two triangles face the same way. Of each connected part, those
 /// that have less area in all are turned.
-///
-/// \return  the number of turned triangles
-std::size_t orient_shells(plc::UncheckedPlc& soup);
+void orient_shells(plc::UncheckedPlc& soup);
 
 /// The triangles between the domain and the rest, with normals that point out of the domain.
 std::vector<plc::VertexTriple> outward_triangles(const plc::Plc& plc);

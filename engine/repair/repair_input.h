@@ -35,7 +35,7 @@ struct Repaired {
 /// Facets without area, facets that are no polygons and duplicates go. Of a surface, gaps between open edges are
 /// closed, flaps that bound nothing are removed, holes are filled, and facets turned so that their normals point out of
 /// the domain. Facets that cross are cut at their intersections; where closed surfaces overlap, their union is left.
-/// Vertices keep their places, except where gaps are closed.
+/// Vertices keep their places, except where gaps are closed or where facets almost touch.
 ///
 /// \throw InputError  coordinates that are not finite; no facet has an area, or none is left
 Repaired repair_input(const plc::InputPlc& input, const RepairOptions& options = {}, const Progress& progress = {});

@@ -50,11 +50,11 @@ class VertexFinder {
 /// Finds the vertex that is nearest to a point, if it is within reach, or makes one.
 class NearVertexFinder {
  public:
-  NearVertexFinder(plc::UncheckedPlc& soup, double reach)
-      : plc_(soup.plc), reach_(reach), is_known_(soup.plc.vertices.size(), 0) {
+  NearVertexFinder(plc::UncheckedPlc& soup, double reach) : plc_(soup.plc), reach_(reach) {
+    std::vector<char> is_known(soup.plc.vertices.size(), 0);
     for (const plc::VertexTriple& t : soup.triangles.corners)
       for (const VertexId v : t)
-        if (std::exchange(is_known_[v], 1) == 0) add(v);
+        if (std::exchange(is_known[v], 1) == 0) add(v);
   }
 
   VertexId at(const Point3& p) {
@@ -94,7 +94,6 @@ class NearVertexFinder {
 
   plc::Plc& plc_;
   double reach_;
-  std::vector<char> is_known_;
   HashTable<plc::IntegerPoint, VertexId, PointTraits> last_in_cell_;
   std::vector<VertexId> before_;  // of a vertex: the one before it in its cell
 };
