@@ -9,6 +9,7 @@
 
 #include "engine/base/union_find.h"
 #include "engine/plc/close_triangles.h"
+#include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/repair/arrange_cuts.h"
 #include "engine/repair/cut_along.h"
@@ -36,11 +37,9 @@ std::size_t most_triangles(std::size_t given, std::size_t pairs) {
 std::vector<TrianglePair> clean(std::span<const Point3> vertices, TriangleSet& triangles, Fins fins) {
   plc::drop_triangles_without_area(vertices, triangles);
   drop_equal_triangles(triangles, fins);
-  std::vector<TrianglePair> close = plc::find_close_triangles(vertices, triangles);
-  if (plc::split_triangles_at_vertices(vertices, close, triangles)) {
-    drop_equal_triangles(triangles, fins);
-    close = plc::find_close_triangles(vertices, triangles);
-  }
+  std::vector<TrianglePair> close = plc::make_conforming(vertices, triangles);
+  // Pieces may be equal to others.
+  if (drop_equal_triangles(triangles, fins) > 0) close = plc::find_close_triangles(vertices, triangles);
   return close;
 }
 

@@ -108,8 +108,8 @@ void find_duplicates(plc::UncheckedPlc& soup, Diagnosis& diagnosis) {
     list.add([&, s = s, t = t] {
       return place_of(soup.plc, soup.triangles.corners[t], {soup.triangles.numbers[s], soup.triangles.numbers[t]});
     });
+  if (list.fault().count > 0) drop_equal_triangles(soup.triangles, Fins::keep);
   std::move(list).add_to(diagnosis);
-  drop_equal_triangles(soup.triangles, Fins::keep);
 }
 
 /// The facets of which there are more triangles than before.

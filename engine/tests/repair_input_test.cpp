@@ -249,7 +249,7 @@ TEST(Repair, OfDamagedSolidsGivesValidOnes) {
   }
   EXPECT_GT(damaged, 300);
   // What was meant is not always known: a facet may have a corner anywhere.
-  EXPECT_GE(valid, damaged * 99 / 100);
+  EXPECT_LE(damaged - valid, 1);
 }
 
 }  // namespace
