@@ -138,6 +138,9 @@ nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const U
   } catch (const nlohmann::ordered_json::parse_error& error) {
     io::fail_at_byte(bytes, error.byte, std::string(kind.what) + " must be JSON, but this is not",
                      std::string("correct the file there") + kind.examples);
+  } catch (const nlohmann::ordered_json::exception& error) {
+    throw InputError(std::string(kind.what) + " cannot be read: " + error.what(), io::place_in(file.string()),
+                     std::string("correct the file there") + kind.examples);
   }
   check_schema(json, file.string(), kind);
   return json;

@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <vector>
 
 #include "bench/json.h"
 #include "engine/base/enum_names.h"
@@ -51,6 +52,12 @@ inline double number_from_json(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::infinity() : json.get<double>();
 }
 
+inline std::vector<double> numbers_from_json(const Json& json) {
+  std::vector<double> numbers;
+  for (const Json& number : json) numbers.push_back(number_from_json(number));
+  return numbers;
+}
+
 template <class Type>
 inline constexpr bool is_optional = false;
 template <class Type>
@@ -92,6 +99,8 @@ void read_fields(const Json& json, const Fields& list, Struct& value) {
     auto& member = std::invoke(f.access, value);
     if constexpr (std::is_same_v<decltype(member), double&>)
       member = number_from_json(json.at(f.name));
+    else if constexpr (std::is_same_v<decltype(member), std::vector<double>&>)
+      member = numbers_from_json(json.at(f.name));
     else if constexpr (is_optional<std::remove_reference_t<decltype(member)>>)
       member = json.at(f.name).template get<typename std::remove_reference_t<decltype(member)>::value_type>();
     else

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cassert>
 #include <cmath>
@@ -65,6 +66,11 @@ double trimmed_mean_of_counts(std::span<const double> values, std::span<const st
     before += times[i];
   }
   return sum / static_cast<double>(end - trimmed);
+}
+
+/// Half the width of a confidence interval, in standard errors.
+double student_t(double freedom, double confidence) {
+  return boost::math::quantile(boost::math::students_t_distribution<double, InDouble>(freedom), (1 + confidence) / 2);
 }
 
 std::vector<double> logarithms(std::span<const double> values) {
@@ -168,6 +174,23 @@ Estimate trimmed_mean_estimate(std::span<const double> samples, double share, co
   });
 }
 
+Estimate trimmed_t_estimate(std::span<const double> samples, double share, double confidence) {
+  const std::size_t trimmed = trimmed_at_each_end(samples.size(), share), kept = samples.size() - 2 * trimmed;
+  assert(kept >= 2);
+  std::vector<double> winsorized = sorted(samples);
+  std::fill_n(winsorized.begin(), trimmed, winsorized[trimmed]);
+  std::fill_n(winsorized.rbegin(), trimmed, winsorized[samples.size() - trimmed - 1]);
+  const auto all = static_cast<double>(samples.size()), remain = static_cast<double>(kept);
+  const double error = standard_deviation(winsorized) * std::sqrt(all - 1) / std::sqrt(remain * (remain - 1));
+  const double value = trimmed_mean(samples, share), half = student_t(remain - 1, confidence) * error;
+  return {value, value - half, value + half};
+}
+
+double normal_tail(double probability) {
+  using Normal = boost::math::normal_distribution<double, InDouble>;
+  return boost::math::quantile(boost::math::complement(Normal(), probability));
+}
+
 Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence) {
   assert(hits >= 0 && hits <= trials && trials > 0);
   using Binomial = boost::math::binomial_distribution<double, InDouble>;
@@ -191,9 +214,7 @@ LineFit fit_line(std::span<const double> x, std::span<const double> y, double co
   double unexplained = 0;  // from the residuals: a difference of sums would lose digits for a good fit
   for (std::size_t i = 0; i < x.size(); ++i) unexplained += std::pow(y[i] - intercept - slope * x[i], 2);
   const auto freedom = static_cast<double>(x.size() - 2);
-  const double t =
-      boost::math::quantile(boost::math::students_t_distribution<double, InDouble>(freedom), (1 + confidence) / 2);
-  const double half = t * std::sqrt(unexplained / freedom / xx);
+  const double half = student_t(freedom, confidence) * std::sqrt(unexplained / freedom / xx);
   return {{slope, slope - half, slope + half}, intercept, yy > 0 ? 1 - unexplained / yy : 1};
 }
 

@@ -70,6 +70,16 @@ Estimate ratio_of_medians(std::span<const double> numerator, std::span<const dou
 /// \pre as for `trimmed_mean`
 Estimate trimmed_mean_estimate(std::span<const double> samples, double share, const Bootstrap& bootstrap = {});
 
+/// The trimmed mean with the interval of Student's t by the winsorized variance (Tukey and McLaughlin 1963; Wilcox
+/// 2017, section 4.3). For few samples, for which a bootstrap is too narrow.
+///
+/// \pre as for `trimmed_mean`, and at least two samples remain
+Estimate trimmed_t_estimate(std::span<const double> samples, double share, double confidence = 0.95);
+
+/// The value that a standard normal variable exceeds with this probability.
+/// \pre 0 < probability < 1
+double normal_tail(double probability);
+
 /// The share of trials that were hits, with the interval of Clopper and Pearson (1934).
 /// \pre there is a trial
 Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence = 0.95);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "baselines/process.h"
 #include "baselines/stop.h"
 #include "bench/gate/baseline.h"
 #include "bench/gate/compare.h"
@@ -14,6 +15,7 @@
 #include "engine/io/files.h"
 #include "reports/verdict_text.h"
 #include "tools/commands.h"
+#include "tools/error_words.h"
 #include "tools/options.h"
 #include "tools/stop_signals.h"
 #include "tools/terminal.h"
@@ -26,7 +28,14 @@ using gate::Verdict;
 
 gate::Rules rules_of(const GateCommand& command) {
   gate::Rules rules = command.rules.empty() ? gate::Rules() : gate::read_rules(command.rules);
-  if (!command.layers.empty()) rules.layers = {command.layers.begin(), command.layers.end()};
+  if (!command.layers.empty()) {
+    rules.layers = {command.layers.begin(), command.layers.end()};
+    rules.layers_are_chosen = true;
+  }
+  if (command.layouts > 0) {
+    rules.time.layouts = command.layouts;
+    for (gate::CaseRules& special : rules.special) special.time.layouts = command.layouts;
+  }
   rules.shadow = rules.shadow || command.shadow;
   return rules;
 }
@@ -39,6 +48,27 @@ std::string names_of_cases(const gate::Recording& recording) {
   return text + (recording.cases.size() > most_names ? ", ..." : "");
 }
 
+/// The command that measures times in turns, instead of two recordings.
+std::string command_in_turns(const gate::Recording& base, const gate::Recording& head) {
+  const auto quoted = [](const std::string& command) { return baselines::command_line({command}); };
+  std::string then = "PROGRAM", now = "PROGRAM", more;
+  if (base.kind == gate::Source::hyperfine && head.kind == gate::Source::hyperfine) {
+    then = quoted(base.cases.front().command);
+    now = quoted(head.cases.back().command);
+  } else if (head.kind == gate::Source::google_benchmark) {
+    const auto program_of = [&](const gate::Recording& one) {
+      const auto found = one.identity.find("benchmark.executable");
+      return found == one.identity.end() ? "PROGRAM" : quoted(found->second);
+    };
+    then = program_of(base);
+    now = program_of(head);
+    more = " -- --benchmark_min_time=0.05";
+  } else if (head.kind == gate::Source::runs) {
+    more = " --sweep SPEC.json";
+  }
+  return "ccdt gate --base " + then + " --head " + now + " -o gate" + more;
+}
+
 /// Notes which parts of two recordings are not compared, and why.
 void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict& verdict) {
   for (const gate::Recording* one : {&base, &head})
@@ -47,46 +77,39 @@ void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict
   if (verdict.figures.empty())
     verdict.notes.push_back("nothing can be compared: the cases of the base are " + names_of_cases(base) +
                             ", those of the head " + names_of_cases(head));
-  for (const gate::JudgedFigure& figure : verdict.figures)
-    if (figure.layer == gate::Layer::instructions && figure.verdict == Judgment::incomparable) {
-      verdict.notes.push_back("instruction counts are not compared: " + figure.words);
-      break;
-    }
-  const auto times = std::ranges::count_if(verdict.figures, [](const gate::JudgedFigure& figure) {
-    return figure.layer == gate::Layer::time && figure.verdict == Judgment::incomparable;
+  const bool has_times = std::ranges::any_of(head.cases, [](const gate::CaseFigures& one) {
+    return std::ranges::any_of(one.figures, [](const gate::Figure& f) { return f.layer == gate::Layer::time; });
   });
-  if (times > 0)
-    verdict.notes.push_back(
-        std::to_string(times) +
-        " times were recorded earlier and are not judged; to judge times, run base and head in turns: "
-        "ccdt gate --base PROGRAM --head PROGRAM");
+  if (has_times)
+    verdict.notes.push_back("times that were recorded earlier are never judged; this runs both programs in turns: " +
+                            command_in_turns(base, head));
 }
 
-/// Compares the commands of one call of hyperfine.
+/// The commands of one call of hyperfine: their times were measured one after the other.
 GateResult compare_alone(const GateCommand& command, const gate::Rules& rules) {
   GateResult result{{}, gate::read_recording(command.words[0])};
   if (result.head.kind != gate::Source::hyperfine || result.head.cases.size() < 2)
     throw CLI::RequiredError("--against");
-  result.verdict.base = result.head.cases.front().name;
-  result.verdict.head = command.words[0];
-  result.verdict.figures = gate::compare_commands(result.head, rules);
-  result.verdict.notes.push_back(
-      "the commands were measured one after the other, not in turns, and nothing was confirmed: a disturbance of one "
-      "of them looks like a difference");
-  if (result.head.cases.size() > 2)
-    result.verdict.correction = "the confidence of each interval is corrected for the number of commands (Bonferroni)";
+  gate::Recording base = result.head, head = result.head;
+  base.cases.resize(1);
+  head.cases.erase(head.cases.begin(), head.cases.end() - 1);
+  result.verdict.base = base.cases.front().name;
+  result.verdict.head = head.cases.front().name;
+  result.verdict.figures = gate::compare_recordings(base, head, rules);
+  add_notes(base, head, result.verdict);
   return result;
 }
 
 GateResult compare_recorded(const GateCommand& command, const gate::Rules& rules) {
   GateResult result{{}, gate::read_recording(command.words[0])};
-  const bool is_first = command.update && !std::filesystem::exists(command.against);
+  require_baseline(command);
+  const bool is_there = std::filesystem::exists(command.against);
   const gate::Recording base =
-      is_first ? gate::Recording{command.against, gate::Source::baseline} : gate::read_recording(command.against);
+      is_there ? gate::read_recording(command.against) : gate::Recording{command.against, gate::Source::baseline};
   result.verdict.base = command.against;
   result.verdict.head = command.words[0];
   result.verdict.figures = gate::compare_recordings(base, result.head, rules);
-  if (!is_first) add_notes(base, result.head, result.verdict);
+  if (is_there) add_notes(base, result.head, result.verdict);
   return result;
 }
 
@@ -108,7 +131,24 @@ void append(const std::filesystem::path& file, const std::string& text) {
   if (!output) throw OutputError("cannot be written to", io::place_in(file.string()), "choose another file");
 }
 
+/// A baseline that holds no performance figure would gate nothing.
+void require_figures(const gate::Recording& head, const gate::Rules& rules, const GateCommand& command) {
+  const bool has_some = std::ranges::any_of(head.cases, [&](const gate::CaseFigures& one) {
+    return std::ranges::any_of(one.figures, [&](const gate::Figure& figure) {
+      const bool is_end = figure.name == "status" || figure.name == "kind" || figure.name == "exit_codes";
+      return !is_end && figure.layer != gate::Layer::time && gate::is_gated(rules, figure.layer, one.name, figure.name);
+    });
+  });
+  if (!has_some)
+    throw InputError(
+        "it holds times only, and a time that was recorded earlier is never judged; a baseline of it would "
+        "gate nothing",
+        io::place_in(command.words.empty() ? command.head : command.words[0]),
+        "run both programs in turns: " + command_in_turns(head, head));
+}
+
 void write_new_baseline(const GateCommand& command, const gate::Rules& rules, GateResult& result) {
+  require_figures(result.head, rules, command);
   const bool is_first = !std::filesystem::exists(command.against);
   const gate::Baseline old = is_first ? gate::Baseline() : gate::read_baseline(command.against);
   const gate::Baseline anew = gate::updated(old, result.head, rules, result.verdict.figures, command.reason);
@@ -158,6 +198,7 @@ ExitCode run_gate(const GateCommand& command) {
   GateResult result = judge(command, rules);
   Verdict& verdict = result.verdict;
   verdict.shadow = rules.shadow;
+  verdict.rules = rules;
   gate::conclude(verdict);
   if (command.update)
     write_new_baseline(command, rules, result);
@@ -177,6 +218,12 @@ ExitCode run(const GateCommand& command) {
     return run_gate(command);
   } catch (const baselines::Stopped&) {
     return static_cast<ExitCode>(stopped_exit_code());
+  } catch (const CLI::Error&) {
+    throw;
+  } catch (const std::exception& error) {
+    // Only a verdict ends with 1: whatever else fails, nothing was judged.
+    std::fprintf(stderr, "%s\n", in_words(error).c_str());
+    return exit_code_of(error) == failed_a_check ? bad_input : exit_code_of(error);
   }
 }
 
@@ -192,12 +239,14 @@ void check(const GateCommand& command) {
   require(!command.update || !command.against.empty(), "--update", "name the baseline with --against");
   if (!command.measures()) {
     require(command.words.size() == 1, "CURRENT", "give one recording, or --base and --head programs to measure");
-    require(command.sweep.empty() && !command.calibrate, "--sweep, --calibrate", "give the programs to measure");
+    require(command.sweep.empty() && !command.calibrate && command.rebuild.empty() && !command.resume,
+            "--sweep, --calibrate, --rebuild, --resume", "give the programs to measure");
     return;
   }
   require(!command.folder.empty(), "-o,--output", "name the folder for the measurements");
   require(command.sweep.empty() || command.words.empty(), "--sweep",
           "cannot be combined with arguments of the programs");
+  require(command.rebuild.empty() || !command.base.empty(), "--rebuild", "name the base: both programs are rebuilt");
   if (command.calibrate) return require(!command.base.empty(), "--base", "name the base: a calibration measures it");
   require(!command.head.empty(), "--head", "the program to judge is missing");
   require(!command.base.empty() || !command.against.empty(), "--base",
@@ -207,45 +256,68 @@ void check(const GateCommand& command) {
 
 constexpr const char* gate_footer =
     "Finds out whether a program is worse than another one, or than a recording. There are three layers:\n\n"
-    "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks, exit codes: figures that must\n"
-    "                stay the same may not change; more work fails, less work passes; compared with a recording\n"
-    "  instructions  what callgrind counts in each stage; compared with a recording of the same CPU model and "
-    "libraries\n"
+    "  exact         counts, quality and work of `ccdt mesh`, counters of benchmarks: figures that must stay the same\n"
+    "                may not change; more work fails, less work passes\n"
+    "  instructions  what callgrind counts: in each stage of `ccdt mesh`; of any other program in all, with its "
+    "system\n"
+    "                calls and allocations (for these only with --layers)\n"
     "  time          base and head run in turns on this host; a time that was recorded earlier is never judged\n\n"
+    "Passing is a statement: every gated figure was judged, and a slowdown beyond its limit is excluded.\n\n"
     "CURRENT and BASELINE are folders of `ccdt sweep`, reports of `ccdt mesh --report` or folders of them, JSON of\n"
     "Google Benchmark (--benchmark_out) or of hyperfine (--export-json), or baselines (ccdt.baseline/1) that --update\n"
     "wrote. The verdict goes to the terminal, to DIR/verdict.json (ccdt.verdict/1) and, in Markdown, to --markdown.\n\n"
-    "Exit codes: 0 passed, 1 worse, 3 not comparable, 5 undecided (too noisy); with --shadow all of these are 0.\n\n"
+    "Exit codes: 0 passed, 1 worse, 3 not comparable or an error, 5 undecided (too noisy); with --shadow all verdicts "
+    "are\n"
+    "0.\n\n"
     "Example: keep a baseline beside the source, and gate every change with it\n"
     "  ccdt gate build/sweep --against gate/baseline.json --update --reason 'first baseline'\n"
     "  ccdt gate build/sweep --against gate/baseline.json -o build/gate --markdown \"$GITHUB_STEP_SUMMARY\"\n"
     "Example: all layers, over the cases of a sweep\n"
     "  ccdt gate --base old/ccdt --head new/ccdt --sweep gate/cases.json -o build/gate\n"
-    "Example: two programs on Google Benchmark, or of any kind\n"
+    "Example: two programs on Google Benchmark, or commands of any kind\n"
     "  ccdt gate --base old/bench_x --head new/bench_x -o build/gate -- --benchmark_filter=Insert\n"
-    "  ccdt gate --base old/tool --head new/tool -o build/gate -- input.txt\n"
+    "  ccdt gate --base 'old/tool input.txt' --head 'new/tool input.txt' -o build/gate\n"
+    "Example: several builds of each, so that the place of code in memory does not decide\n"
+    "  ccdt gate --base old/bench_x --head new/bench_x --rebuild ./relink -o build/gate -- --benchmark_filter=Insert\n"
     "Example: how noisy is this host?\n"
     "  ccdt gate --base old/ccdt --sweep gate/cases.json --calibrate -o build/calibration\n"
     "Example: rules (--rules) that ignore a figure, let another get 1% worse, and judge times from 3% on\n"
     "  {\"schema\": \"ccdt.rules/1\",\n"
     "   \"exact\": {\"ignore\": [\"counts.improve.*\"], \"tolerances\": {\"work.front.*\": 0.01}},\n"
-    "   \"time\": {\"relative\": 0.03, \"absolute_seconds\": 0.001}}\n";
+    "   \"time\": {\"relative\": 0.03}}\n";
 
 void add_measuring_options(CLI::App& verb, GateCommand& command) {
-  verb.add_option("--base", command.base, "program to compare with")->check(CLI::ExistingFile);
-  verb.add_option("--head", command.head, "program to judge")->check(CLI::ExistingFile);
+  verb.add_option("--base", command.base, "program to compare with, or a command with its arguments");
+  verb.add_option("--head", command.head, "program to judge, or a command with its arguments");
   verb.add_option("--sweep", command.sweep, "cases to measure: a spec of `ccdt sweep`");
   verb.add_option("--seed", command.seed, "seed of the order of the runs; default: a new one in each call");
   verb.add_flag("--calibrate", command.calibrate, "measure how noisy the base is; writes DIR/calibration.json");
   verb.add_option("--pairs", command.pairs, "number of pairs of runs of each case in a calibration")
       ->check(whole_number(5, 100000))
       ->capture_default_str();
+  verb.add_option(
+      "--rebuild", command.rebuild,
+      "command that builds the program of $CCDT_GATE_SIDE with the layout of $CCDT_GATE_SEED, and writes it "
+      "to $CCDT_GATE_OUTPUT");
+  verb.add_option("--layouts", command.layouts,
+                  "number of builds of each program at the first look; default: that of the rules, 8")
+      ->check(whole_number(4, 1000));
+  verb.add_option("--time-limit", command.most_seconds,
+                  "seconds of one run; default: 20 times what the base took at first, and at least 10 s")
+      ->check(CLI::PositiveNumber);
+  verb.add_flag("--resume", command.resume, "go on with the times that a stopped gate left in DIR/samples.json");
   verb.add_option("--calibration", command.calibration,
                   "file that --calibrate wrote: raises the thresholds of noisy cases")
       ->check(CLI::ExistingFile);
 }
 
 }  // namespace
+
+void require_baseline(const GateCommand& command) {
+  if (command.against.empty() || command.update || std::filesystem::exists(command.against)) return;
+  throw InputError("there is no baseline yet", io::place_in(command.against),
+                   "write the first one: the same command with --update --reason 'first baseline'; or check the path");
+}
 
 void add_gate_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<GateCommand>();

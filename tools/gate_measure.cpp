@@ -7,11 +7,16 @@
 #include <utility>
 
 #include "baselines/stop.h"
+#include "bench/environment.h"
 #include "bench/gate/baseline.h"
+#include "bench/gate/benchmark_target.h"
 #include "bench/gate/calibration.h"
 #include "bench/gate/compare.h"
 #include "bench/gate/instructions.h"
-#include "bench/gate/time_layer.h"
+#include "bench/gate/judge_times.h"
+#include "bench/gate/layouts.h"
+#include "bench/gate/measure_times.h"
+#include "bench/gate/program_counts.h"
 #include "bench/gate/timed_targets.h"
 #include "bench/results/numbers.h"
 #include "bench/sweep/sweep_document.h"
@@ -19,7 +24,7 @@
 #include "engine/io/files.h"
 #include "tools/folder_lock.h"
 #include "tools/gate_command.h"
-#include "tools/progress_bar.h"
+#include "tools/gate_progress.h"
 #include "tools/sweep_command.h"
 
 namespace ccdt::tools {
@@ -28,7 +33,7 @@ namespace {
 using gate::Judgment;
 using gate::Layer;
 
-constexpr baselines::Limits limits_of_programs = {.seconds = 3600};  ///< of one run of a program with arguments
+constexpr baselines::Limits limits_of_programs = {.seconds = 600};  ///< of the first run of a program
 
 /// A program with the cases of the sweep, in a folder of its own.
 struct MeasuredProgram {
@@ -36,8 +41,21 @@ struct MeasuredProgram {
   gate::Recording recording = {};
 };
 
-std::filesystem::path absolute(const std::string& program) {
-  return std::filesystem::absolute(program).lexically_normal();
+gate::Programs programs_of(const GateCommand& command) {
+  gate::Programs programs;
+  if (!command.base.empty()) programs.base = gate::command_from(command.base, "--base");
+  if (!command.head.empty()) programs.head = gate::command_from(command.head, "--head");
+  return programs;
+}
+
+/// The path of a program that a sweep runs.
+/// \throw InputError  it has arguments
+std::filesystem::path path_of(const gate::Command& program) {
+  if (program.size() > 1)
+    throw InputError(
+        "a sweep needs a program without arguments, and this is a command: " + baselines::command_line(program), {},
+        "name the program alone, and put the options into the spec");
+  return program.front();
 }
 
 /// Makes a recorded command call the measured program.
@@ -48,11 +66,11 @@ void name_program(const std::filesystem::path& program, std::string& command) {
     command.replace(at, recorded.size(), " && " + baselines::command_line({program.string()}) + " ");
 }
 
-MeasuredProgram prepare(const GateCommand& command, const std::string& program, const char* side, bool runs) {
+MeasuredProgram prepare(const GateCommand& command, const std::filesystem::path& program, const char* side, bool runs) {
   SweepCommand sweep;
   sweep.spec = command.sweep;
   sweep.folder = (std::filesystem::path(command.folder) / side).string();
-  sweep.program = absolute(program);
+  sweep.program = program;
   sweep.refresh = true;  // records may come from another program
   // Records of an earlier gate prove nothing: a library or another program that this one calls may have changed, even
   // if its own file did not.
@@ -85,11 +103,11 @@ std::vector<cases::Case> good_cases(const MeasuredProgram& measured, const gate:
   return good;
 }
 
-gate::Recording count_instructions(const std::string& program, const gate::Rules& rules,
+gate::Recording count_instructions(const std::filesystem::path& program, const gate::Rules& rules,
                                    const std::vector<cases::Case>& cases, const std::filesystem::path& folder) {
   gate::Recording counts;
-  ProgressBar bar;
-  gate::add_instructions(absolute(program), cases, rules, folder, counts, bar.progress());
+  GateProgress progress;
+  gate::add_instructions(program, cases, rules, folder, counts, progress.counted());
   return counts;
 }
 
@@ -109,7 +127,7 @@ gate::Recording instruction_base(const GateCommand& command, const gate::Rules& 
                             gate::other_conditions(recorded, head));
   const auto folder = std::filesystem::absolute(command.folder) / "base";
   std::filesystem::create_directories(folder);
-  gate::Recording base = count_instructions(command.base, rules, cases, folder);
+  gate::Recording base = count_instructions(path_of(programs_of(command).base), rules, cases, folder);
   if (const std::string other = gate::other_conditions(base, head); !other.empty())
     verdict.notes.push_back("the programs were built differently: " + other);
   base.identity = head.identity;  // both were counted here, so only the programs differ
@@ -131,7 +149,8 @@ void compare_instructions(const GateCommand& command, const gate::Rules& rules, 
   if (!rules.layers.contains(Layer::instructions)) return;
   try {
     const std::vector<cases::Case> cases = good_cases(head, verdict);
-    const gate::Recording counts = count_instructions(command.head, rules, cases, head.sweep.folder);
+    const gate::Recording counts =
+        count_instructions(path_of(programs_of(command).head), rules, cases, head.sweep.folder);
     const gate::Recording base = instruction_base(command, rules, recorded, counts, cases, verdict);
     append(gate::compare_instructions(base, counts, rules), verdict);
     if (const std::string other = gate::other_conditions(base, counts); has_instructions(base) && !other.empty())
@@ -148,38 +167,77 @@ std::uint64_t seed_of(const GateCommand& command) {
   return command.seed ? *command.seed : std::random_device()();
 }
 
-/// A program failed while its time was measured.
-gate::JudgedFigure judged_failure(const gate::ProgramFailed& failure) {
-  gate::JudgedFigure judged;
-  const bool is_base = failure.side() == gate::Side::base;
-  judged.name = "status";
-  judged.case_name = failure.place().file;
-  judged.layer = Layer::time;
-  judged.base_text = is_base ? "failed" : "ok";
-  judged.head_text = is_base ? "" : "failed";
-  judged.verdict = is_base ? Judgment::incomparable : Judgment::worse;
-  judged.changed = !is_base;
-  judged.words = failure.what();
-  judged.command = failure.command();
-  return judged;
+std::filesystem::path samples_file(const GateCommand& command) {
+  return std::filesystem::path(command.folder) / "samples.json";
 }
 
-void compare_times(const GateCommand& command, const gate::Rules& rules, std::span<const gate::TimedTarget> targets,
-                   gate::Verdict& verdict) {
+/// What a program is, whatever its folder: the hash of its file, and its arguments.
+std::string identity_of(gate::Command program) {
+  program.front() = bench::sha256_of_file(program.front());
+  return baselines::command_line(program);
+}
+
+/// New samples, or with --resume those of a stopped gate.
+/// \throw InputError  they are those of other programs
+gate::SampleSet start_samples(const GateCommand& command, const gate::Programs& programs) {
+  gate::SampleSet anew;
+  anew.seed = seed_of(command);
+  anew.clock_seconds = gate::clock_step();
+  anew.is_rebuilt = static_cast<bool>(programs.rebuilt);
+  anew.base_program = identity_of(programs.base);
+  anew.head_program = identity_of(programs.head);
+  if (!command.resume) return anew;
+  gate::SampleSet stopped = gate::read_samples(samples_file(command));
+  if (stopped.base_program != anew.base_program || stopped.head_program != anew.head_program ||
+      stopped.is_rebuilt != anew.is_rebuilt)
+    throw InputError("these times are those of other programs, so the gate cannot go on with them",
+                     io::place_in(samples_file(command).string()), "start again without --resume");
+  return stopped;
+}
+
+[[noreturn]] void keep_and_stop(const GateCommand& command, const gate::SampleSet& samples) {
+  gate::write_samples(samples, samples_file(command));
+  std::size_t pairs = 0;
+  for (const gate::PairedSamples& one : samples.cases) pairs += one.screening.size() + one.confirmation.size();
+  std::fprintf(stderr,
+               "Stopped. %zu pairs of runs of %zu cases are kept in %s.\nThe same command with --resume goes on from "
+               "there; without it, the gate starts again.\n",
+               pairs, samples.cases.size(), samples_file(command).c_str());
+  throw baselines::Stopped();
+}
+
+/// Measures the targets in turns; what was measured is in DIR/samples.json, also if the user stops it.
+gate::SampleSet measure_samples(const GateCommand& command, const gate::Rules& rules, const gate::Programs& programs,
+                                std::span<const gate::TimedTarget> targets, const gate::Calibration* calibration) {
+  gate::SampleSet samples = start_samples(command, programs);
+  GateProgress progress;
+  const gate::MeasureOptions options = {calibration, command.most_seconds,
+                                        [&](const gate::TimeProgress& now) { progress.show(now); }};
+  try {
+    gate::measure_times(targets, rules, options, samples);
+  } catch (const baselines::Stopped&) {
+    keep_and_stop(command, samples);
+  }
+  gate::write_samples(samples, samples_file(command));
+  return samples;
+}
+
+/// \return  the names of the cases that both programs ran
+std::set<std::string> compare_times(const GateCommand& command, const gate::Rules& rules,
+                                    const gate::Programs& programs, std::span<const gate::TimedTarget> targets,
+                                    gate::Verdict& verdict) {
   const auto calibration = command.calibration.empty() ? std::optional<gate::Calibration>()
                                                        : std::optional(gate::read_calibration(command.calibration));
   const gate::Calibration* known = calibration ? &*calibration : nullptr;
-  ProgressBar bar;
-  try {
-    const gate::SampleSet samples = gate::measure_times(targets, rules, known, seed_of(command), bar.progress());
-    gate::write_samples(samples, std::filesystem::path(command.folder) / "samples.json");
-    append(gate::judge_times(samples, rules, known), verdict);
-    verdict.correction = gate::correction_words();
-    verdict.notes.push_back("all times are in samples.json; --seed " + std::to_string(samples.seed) +
-                            " repeats the order of the runs");
-  } catch (const gate::ProgramFailed& failure) {
-    verdict.figures.push_back(judged_failure(failure));
-  }
+  const gate::SampleSet samples = measure_samples(command, rules, programs, targets, known);
+  append(gate::judge_times(samples, rules, known), verdict);
+  if (rules.layers.contains(Layer::time)) verdict.correction = gate::correction_words();
+  verdict.notes.push_back("all times are in samples.json; --seed " + std::to_string(samples.seed) +
+                          " repeats the order of the runs");
+  std::set<std::string> names;
+  for (const gate::PairedSamples& one : samples.cases)
+    if (one.is_comparable()) names.insert(one.case_name);
+  return names;
 }
 
 /// The cases whose times are judged.
@@ -194,31 +252,71 @@ std::filesystem::path times_folder(const GateCommand& command) {
   return folder;
 }
 
-std::vector<gate::TimedTarget> targets_of(const GateCommand& command, const gate::Programs& programs) {
-  const bool is_benchmark =
-      std::ranges::any_of(command.words, [](const std::string& word) { return word.starts_with("--benchmark"); });
-  if (is_benchmark) return {gate::benchmark_target(programs, command.words, limits_of_programs, times_folder(command))};
-  return {gate::command_target(programs, command.words, limits_of_programs)};
+/// With --rebuild, programs with other layouts.
+gate::Programs with_layouts(const GateCommand& command, gate::Programs programs) {
+  if (command.rebuild.empty()) return programs;
+  const auto folder = std::filesystem::absolute(command.folder) / "layouts";
+  if (!command.resume) std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  programs.rebuilt = gate::layout_builder(command.rebuild, programs, folder);
+  return programs;
+}
+
+bool are_benchmarks(const GateCommand& command, const gate::Programs& programs) {
+  return gate::is_benchmark(command.words) || gate::is_benchmark(programs.base) || gate::is_benchmark(programs.head);
+}
+
+gate::TimedTarget target_of(const GateCommand& command, const gate::Rules& rules, const gate::Programs& programs) {
+  if (are_benchmarks(command, programs))
+    return gate::benchmark_target(programs, command.words, rules, limits_of_programs, times_folder(command));
+  return gate::command_target(programs, command.words, limits_of_programs);
+}
+
+/// Two programs of any kind. Their instructions are counted if the user chose that layer: it takes long.
+void measure_programs(const GateCommand& command, gate::Rules rules, gate::Verdict& verdict) {
+  const gate::Programs programs = with_layouts(command, programs_of(command));
+  const bool is_benchmark = are_benchmarks(command, programs);
+  std::set<std::string> names;
+  if (rules.layers.contains(Layer::time) || rules.layers.contains(Layer::exact)) {
+    names = compare_times(command, rules, programs, std::vector{target_of(command, rules, programs)}, verdict);
+  } else if (is_benchmark) {
+    for (std::string& name :
+         gate::list_benchmarks(gate::command_of(programs, {gate::Side::head}, command.words), times_folder(command)))
+      names.insert(std::move(name));
+  }
+  if (!rules.layers.contains(Layer::instructions)) return;
+  if (!rules.layers_are_chosen) {
+    verdict.notes.push_back(
+        "instructions, system calls and allocations were not counted; --layers "
+        "exact,instructions,time counts them");
+    return;
+  }
+  const auto folder = std::filesystem::absolute(command.folder) / "instructions";
+  std::filesystem::create_directories(folder);
+  GateProgress progress;
+  append(gate::compare_counts(programs, {command.words, is_benchmark ? names : std::set<std::string>(), folder}, rules,
+                              progress.counted()),
+         verdict);
 }
 
 void measure_sweep(const GateCommand& command, const gate::Rules& rules, GateResult& result) {
   gate::Verdict& verdict = result.verdict;
   const bool is_exact = rules.layers.contains(Layer::exact);
-  MeasuredProgram head = prepare(command, command.head, "head", is_exact);
+  const gate::Programs programs = with_layouts(command, programs_of(command));
+  const std::filesystem::path head_program = path_of(programs.head);
+  MeasuredProgram head = prepare(command, head_program, "head", is_exact);
   gate::Recording base;
   if (!command.against.empty()) {
     if (!command.update || std::filesystem::exists(command.against)) base = gate::read_recording(command.against);
   } else if (is_exact) {
-    base = prepare(command, command.base, "base", true).recording;
+    base = prepare(command, path_of(programs.base), "base", true).recording;
   }
   append(gate::compare_exact(base, head.recording, rules), verdict);
   compare_instructions(command, rules, base, head, verdict);
   const auto timed = timed_cases(good_cases(head, verdict), rules);
   if (rules.layers.contains(Layer::time) && !command.base.empty() && !timed.empty())
-    compare_times(
-        command, rules,
-        gate::sweep_targets({absolute(command.base), absolute(command.head)}, timed, rules, times_folder(command)),
-        verdict);
+    compare_times(command, rules, programs, gate::sweep_targets(programs, timed, rules, times_folder(command)),
+                  verdict);
   else if (rules.layers.contains(Layer::time) && timed.empty())
     verdict.notes.push_back("no case is timed: the rules name no case that works");
   else if (rules.layers.contains(Layer::time))
@@ -238,6 +336,7 @@ gate::Calibration calibration_of(const gate::SampleSet& samples, const gate::Rul
 }  // namespace
 
 GateResult measure(const GateCommand& command, const gate::Rules& rules) {
+  require_baseline(command);
   const FolderLock lock(command.folder);
   GateResult result;
   result.verdict.head = command.head;
@@ -245,30 +344,28 @@ GateResult measure(const GateCommand& command, const gate::Rules& rules) {
   if (!command.sweep.empty())
     measure_sweep(command, rules, result);
   else
-    compare_times(command, rules, targets_of(command, {absolute(command.base), absolute(command.head)}),
-                  result.verdict);
+    measure_programs(command, rules, result.verdict);
   return result;
 }
 
 gate::Calibration measure_calibration(const GateCommand& command, const gate::Rules& rules) {
   const FolderLock lock(command.folder);
-  const gate::Programs programs = {absolute(command.base), absolute(command.base)};
+  GateCommand twice = command;
+  twice.head = command.base;
+  const gate::Programs programs = with_layouts(command, programs_of(twice));
   std::vector<gate::TimedTarget> targets;
   if (command.sweep.empty()) {
-    targets = targets_of(command, programs);
+    targets = {target_of(command, rules, programs)};
   } else {
-    const MeasuredProgram base = prepare(command, command.base, "base", false);
+    const MeasuredProgram base = prepare(command, path_of(programs.base), "base", false);
     targets = gate::sweep_targets(programs, timed_cases(cases_of(base), rules), rules, times_folder(command));
   }
-  ProgressBar bar;
-  const gate::SampleSet samples = gate::measure_noise(targets, command.pairs, seed_of(command), bar.progress());
-  bar.erase();
-  const std::filesystem::path folder = command.folder;
-  gate::write_samples(samples, folder / "samples.json");
+  gate::Rules all_pairs = gate::rules_of_calibration(rules, command.pairs);
+  const gate::SampleSet samples = measure_samples(command, all_pairs, programs, targets, nullptr);
   gate::Calibration calibration = calibration_of(samples, rules);
   calibration.program = command.base;
-  calibration.identity = cases::identity_of({"ccdt"}, absolute(command.base));
-  gate::write_calibration(calibration, folder / "calibration.json");
+  calibration.identity = cases::identity_of({"ccdt"}, programs.base.front());
+  gate::write_calibration(calibration, std::filesystem::path(command.folder) / "calibration.json");
   return calibration;
 }
 

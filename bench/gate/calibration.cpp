@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <random>
 #include <tuple>
 #include <utility>
@@ -23,6 +25,7 @@ inline constexpr auto fields<gate::CaseNoise> = std::tuple(
     field("robust_deviation", &gate::CaseNoise::robust_deviation),
     field("autocorrelation", &gate::CaseNoise::autocorrelation), field("noise_floor", &gate::CaseNoise::noise_floor),
     field("pairs_needed", &gate::CaseNoise::pairs_needed),
+    field_if_any("layout_deviation", &gate::CaseNoise::layout_deviation),
     field_if_any("smallest_found", &gate::CaseNoise::smallest_found),
     field("log_ratios", &gate::CaseNoise::log_ratios));
 
@@ -57,13 +60,13 @@ class BlockDraw {
         block_(static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(measured.size()))))),
         random_(seed) {}
 
-  /// Draws more until there are this many.
-  void extend(std::vector<double>& drawn, std::size_t count, double shift) {
+  /// Draws more pairs until there are this many.
+  void extend(std::vector<Pair>& drawn, std::size_t count, double shift) {
     while (drawn.size() < count) {
       const std::size_t begin = draw(measured_.size() - block_ + 1);
       const double sign = draw(2) == 0 ? 1 : -1;
       for (std::size_t i = begin; i < begin + block_ && drawn.size() < count; ++i)
-        drawn.push_back(sign * measured_[i] + shift);
+        drawn.push_back({1, std::exp(sign * measured_[i] + shift)});
     }
   }
 
@@ -81,14 +84,15 @@ class BlockDraw {
 struct SimulatedCase {
   const CaseNoise& noise;
   const TimeRules& rules;
-  double threshold = 0;
+  Threshold threshold = {};
 };
 
 Look screen(const SimulatedCase& c, double shift, BlockDraw& draw) {
-  std::vector<double> drawn;
+  const bench::Bootstrap bootstrap = bootstrap_for(screening_confidence(c.rules), draw.seed(), simulated_resamples);
+  std::vector<Pair> drawn;
   for (;;) {
     draw.extend(drawn, static_cast<std::size_t>(next_look(static_cast<int>(drawn.size()), c.rules)), shift);
-    const Look look = look_at(drawn, c.threshold, c.rules, {c.rules.confidence, simulated_resamples, draw.seed()});
+    const Look look = look_at(drawn, c.threshold, bootstrap);
     if (look.call != Call::open || static_cast<int>(drawn.size()) >= c.rules.at_most) return look;
   }
 }
@@ -96,10 +100,10 @@ Look screen(const SimulatedCase& c, double shift, BlockDraw& draw) {
 Look confirm(const SimulatedCase& c, const Look& screening, int suspects, double shift, BlockDraw& draw) {
   const bench::Bootstrap bootstrap =
       bootstrap_for(confirmation_confidence(c.rules, suspects), draw.seed(), simulated_resamples);
-  std::vector<double> drawn;
+  std::vector<Pair> drawn;
   for (;;) {
     draw.extend(drawn, static_cast<std::size_t>(next_look(static_cast<int>(drawn.size()), c.rules)), shift);
-    const Look look = look_at(drawn, c.threshold, c.rules, bootstrap);
+    const Look look = look_at(drawn, c.threshold, bootstrap);
     if (half_width(look.log_ratio) <= wanted_half_width(screening, c.rules) ||
         static_cast<int>(drawn.size()) >= c.rules.at_most)
       return look;
@@ -117,12 +121,12 @@ void simulate_unchanged(std::span<const SimulatedCase> cases, std::span<BlockDra
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const Look look = screen(cases[i], 0, draws[i]);
     if (look.call == Call::worse) suspects.emplace_back(i, look);
-    undecided = undecided || is_too_wide(look, cases[i].rules);
+    undecided = undecided || look.call == Call::open;
   }
   for (const auto& [i, screening] : suspects) {
     const Look look = confirm(cases[i], screening, static_cast<int>(suspects.size()), 0, draws[i]);
     worse = worse || look.call == Call::worse;
-    undecided = undecided || is_too_wide(look, cases[i].rules);
+    undecided = undecided || look.call == Call::open;
   }
   counts.worse += worse;
   counts.undecided += !worse && undecided;
@@ -152,7 +156,7 @@ double share_found(const SimulatedCase& c, double slowdown, std::uint64_t seed) 
 /// The smallest slowdown that is found with 95% probability, to 1/20 of it.
 std::optional<double> smallest_found(const SimulatedCase& c, std::uint64_t seed) {
   constexpr double wanted = 0.95, precision = 1.05;
-  double low = std::expm1(c.threshold), high = 1;
+  double low = std::expm1(c.threshold.value), high = 1;
   if (share_found(c, high, seed) < wanted) return {};
   while (high > precision * low) {
     const double middle = std::sqrt(low * high);
@@ -172,13 +176,42 @@ double noise_floor(const SimulatedCase& c, std::uint64_t seed) {
 
 /// An interval narrows with the square root of the number of pairs. A half-width of half of `largest_noise` excludes
 /// either the threshold or the slowdown to find. Pairs that resemble their neighbors carry less information.
-int pairs_needed(const CaseNoise& noise, const TimeRules& rules, std::uint64_t seed) {
-  const Look look = look_at(noise.log_ratios, 0, rules, bootstrap_for(rules.confidence, seed));
+int pairs_needed(const CaseNoise& noise, std::span<const Pair> pairs, const TimeRules& rules, std::uint64_t seed) {
+  const bench::Estimate estimate = log_ratio_of(pairs, bootstrap_for(rules.confidence, seed));
   const double correlation = std::clamp(noise.autocorrelation, 0.0, 0.9);
-  const double pairs = static_cast<double>(noise.log_ratios.size()) *
-                       std::pow(half_width(look.log_ratio) / (rules.largest_noise / 2), 2) * (1 + correlation) /
-                       (1 - correlation);
-  return std::max(rules.at_least, static_cast<int>(std::ceil(std::min(pairs, 1e6))));
+  const double needed = static_cast<double>(noise.log_ratios.size()) *
+                        std::pow(half_width(estimate) / (rules.largest_noise / 2), 2) * (1 + correlation) /
+                        (1 - correlation);
+  return std::max(rules.at_least, static_cast<int>(std::ceil(std::min(needed, 1e6))));
+}
+
+/// Subtracts from the log ratio of each pair the mean of its layout.
+///
+/// \return  the standard deviation of log time between builds, by the analysis of variance of one random effect
+/// (Searle,
+///          Casella, McCulloch 1992, section 3.6); none with fewer than two layouts
+std::optional<double> take_out_layouts(std::span<const Pair> pairs, std::vector<double>& ratios) {
+  std::map<int, std::vector<std::size_t>> layouts;
+  for (std::size_t i = 0; i < pairs.size(); ++i) layouts[pairs[i].layout].push_back(i);
+  const auto count = static_cast<double>(layouts.size()), all = static_cast<double>(ratios.size());
+  if (layouts.size() < 2 || ratios.size() == layouts.size()) return {};
+  std::vector<double> means;
+  double within = 0;
+  for (const auto& [layout, members] : layouts) {
+    double mean = 0;
+    for (const std::size_t i : members) mean += ratios[i] / static_cast<double>(members.size());
+    for (const std::size_t i : members) within += (ratios[i] -= mean) * ratios[i];
+    means.push_back(mean);
+  }
+  const double between = std::pow(bench::standard_deviation(means), 2);
+  const double noise = within / (all - count) / (all / count);
+  return std::sqrt(std::max(0.0, between - noise) / 2);  // a ratio has two builds
+}
+
+std::vector<Pair> pairs_of(std::span<const double> ratios) {
+  std::vector<Pair> pairs;
+  for (const double ratio : ratios) pairs.push_back({1, std::exp(ratio)});
+  return pairs;
 }
 
 CaseNoise noise_of(const PairedSamples& samples, const TimeRules& rules, std::uint64_t seed) {
@@ -186,11 +219,12 @@ CaseNoise noise_of(const PairedSamples& samples, const TimeRules& rules, std::ui
   noise.case_name = samples.case_name;
   noise.figure = samples.figure;
   noise.log_ratios = log_ratios(samples.screening);
+  noise.layout_deviation = take_out_layouts(samples.screening, noise.log_ratios);
   noise.seconds = bench::median(seconds_of(samples.screening, Side::base));
   noise.deviation = bench::standard_deviation(noise.log_ratios);
   noise.robust_deviation = bench::robust_deviation(noise.log_ratios);
   noise.autocorrelation = bench::autocorrelation(noise.log_ratios);
-  noise.pairs_needed = pairs_needed(noise, rules, seed);
+  noise.pairs_needed = pairs_needed(noise, pairs_of(noise.log_ratios), rules, seed);
   return noise;
 }
 
@@ -220,6 +254,19 @@ const CaseNoise* find_noise(const Calibration& calibration, const std::string& c
   return found == calibration.cases.end() ? nullptr : &*found;
 }
 
+Rules rules_of_calibration(const Rules& rules, int pairs) {
+  Rules all = rules;
+  all.layers = {Layer::time};
+  all.time.at_least = all.time.at_most = pairs;
+  // Nothing is a suspect, so nothing is confirmed.
+  all.time.relative = std::numeric_limits<double>::max();
+  for (CaseRules& special : all.special) {
+    special.time.at_least = special.time.at_most = pairs;
+    special.time.relative = all.time.relative;
+  }
+  return all;
+}
+
 Calibration calibrate(const SampleSet& samples, const Rules& rules) {
   Calibration calibration;
   calibration.seed = samples.seed;
@@ -230,9 +277,15 @@ Calibration calibrate(const SampleSet& samples, const Rules& rules) {
   std::vector<SimulatedCase> simulated;
   for (CaseNoise& noise : calibration.cases) {
     SimulatedCase c = {noise, time_rules_of(rules, noise.case_name)};
-    c.threshold = threshold_of(c.rules, noise.seconds, 0);
-    noise.noise_floor = noise_floor(c, samples.seed);
-    c.threshold = std::max(c.threshold, noise.noise_floor);
+    const PairedSamples& measured = *std::ranges::find(samples.cases, noise.case_name, &PairedSamples::case_name);
+    Precision precision = {measured.timed_seconds, samples.clock_seconds};
+    c.threshold = threshold_of(c.rules, noise.seconds, precision);
+    precision.noise_floor = noise.noise_floor = noise_floor(c, samples.seed);
+    // Later gates judge two builds.
+    precision.layout_deviation =
+        noise.layout_deviation.value_or(c.rules.layout_deviation.value_or(usual_layout_deviation(noise.figure)));
+    precision.cases = static_cast<int>(calibration.cases.size());
+    c.threshold = threshold_of(c.rules, noise.seconds, precision);
     noise.smallest_found = smallest_found(c, samples.seed);
     simulated.push_back(c);
   }
@@ -241,11 +294,13 @@ Calibration calibrate(const SampleSet& samples, const Rules& rules) {
 }
 
 std::string to_text(const Calibration& calibration) {
-  std::string text = "case: pairs, seconds, deviation (robust), noise floor, pairs needed, smallest slowdown found\n";
+  std::string text =
+      "case: pairs, seconds, deviation (robust), between builds, noise floor, pairs needed, smallest slowdown found\n";
   for (const CaseNoise& c : calibration.cases)
     text += c.case_name + ": " + std::to_string(c.log_ratios.size()) + ", " + rounded(c.seconds) + ", " +
-            percent(c.deviation) + " (" + percent(c.robust_deviation) + "), " + percent(std::expm1(c.noise_floor)) +
-            ", " + std::to_string(c.pairs_needed) + ", " +
+            percent(c.deviation) + " (" + percent(c.robust_deviation) + "), " +
+            (c.layout_deviation ? percent(*c.layout_deviation) : "not measured") + ", " +
+            percent(std::expm1(c.noise_floor)) + ", " + std::to_string(c.pairs_needed) + ", " +
             (c.smallest_found ? percent(*c.smallest_found) : "more than 100%") + "\n";
   const GateRates& rates = calibration.rates;
   text += "false alarms of the whole gate: " + shares(rates.false_alarms) + "; undecided: " + shares(rates.undecided) +

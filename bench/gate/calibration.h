@@ -11,9 +11,8 @@
 #include "bench/cases/identity.h"
 #include "bench/gate/paired_samples.h"
 #include "bench/gate/rules.h"
-#include "bench/gate/timed_targets.h"
 #include "bench/statistics.h"
-#include "engine/base/progress.h"
+#include "engine/base/errors.h"
 
 namespace ccdt::gate {
 
@@ -26,6 +25,8 @@ struct CaseNoise {
   double autocorrelation = 0;   ///< correlation of consecutive log ratios
   double noise_floor = 0;       ///< log ratio below which the interval of an unchanged program begins, in 99% of gates
   int pairs_needed = 0;         ///< pairs needed for an interval as narrow as the rules want
+  std::optional<double> layout_deviation =
+      {};                                     ///< standard deviation of log time between builds; none if there was one
   std::optional<double> smallest_found = {};  ///< slowdown that a gate finds with 95% probability: 0.03 is 3%; none if
                                               ///< it does not even find a doubled time
   std::vector<double> log_ratios;             ///< of all pairs, in order
@@ -63,10 +64,8 @@ class TooFewSamples : public InputError {
   int needed_;
 };
 
-/// Runs each target in pairs with itself: both sides are the base.
-/// \throw ProgramFailed
-/// \throw baselines::Stopped
-SampleSet measure_noise(std::span<const TimedTarget> targets, int pairs, std::uint64_t seed, const Progress& progress);
+/// Rules by which a measurement takes just this many pairs of each case, of both sides of one program.
+Rules rules_of_calibration(const Rules& rules, int pairs);
 
 /// The calibration from the pairs; program and identity are left empty.
 /// \throw TooFewSamples  says how many are needed

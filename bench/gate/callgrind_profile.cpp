@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "engine/base/errors.h"
 
@@ -48,7 +49,18 @@ class Names {
   std::unordered_map<std::string, std::string> names_;
 };
 
-/// Reads the lines of a profile that describe calls.
+/// The words of a line, separated by spaces.
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  while (!line.empty()) {
+    const auto end = std::min(line.find(' '), line.size());
+    if (end > 0) words.push_back(line.substr(0, end));
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  return words;
+}
+
+/// Reads the lines of a profile that describe costs and calls.
 class Reader {
  public:
   CallGraph read(std::string_view profile) {
@@ -58,7 +70,8 @@ class Reader {
       take(profile.substr(0, profile[end] == '\n' ? end : end + 1));
       profile.remove_prefix(end + 1);
     }
-    if (!counts_instructions_ || !is_by_line_) fail("it does not count instructions by line", line_);
+    if (events_.empty() || events_.front() != "Ir" || !is_by_line_)
+      fail("it does not count instructions by line", line_);
     return std::move(graph_);
   }
 
@@ -68,15 +81,34 @@ class Reader {
       add_call(line);
     } else if (line.starts_with("fn=")) {
       caller_ = name_of(line.substr(3));
+      own_ = &graph_.own[caller_];
     } else if (line.starts_with("cfn=")) {
       callee_ = name_of(line.substr(4));
     } else if (line.starts_with("calls=")) {
       after_calls_ = true;
+      const auto words = words_of(line.substr(6));
+      count_ = words.empty() ? 0 : number_of(words.front()).value_or(0);
     } else if (line.starts_with("events:")) {
-      counts_instructions_ = line == "events: Ir";
+      for (const std::string_view word : words_of(line.substr(7))) events_.emplace_back(word);
     } else if (line.starts_with("positions:")) {
       is_by_line_ = line == "positions: line";
+    } else if (own_ != nullptr && is_position(line)) {
+      *own_ += cost_in(line, 0);
+      const auto system = std::ranges::find(events_, "sysCount");
+      if (system != events_.end()) graph_.system_calls += cost_in(line, system - events_.begin());
     }
+  }
+
+  /// "12", "+3", "-3" or "*": the line of the source, relative to the line before.
+  static bool is_position(std::string_view line) {
+    return !line.empty() && std::string_view("+-*0123456789").find(line.front()) != std::string_view::npos;
+  }
+
+  /// The cost of an event in a line of costs. Zeros at the end are left out.
+  static std::uint64_t cost_in(std::string_view line, std::ptrdiff_t event) {
+    const auto words = words_of(line);
+    const auto at = static_cast<std::size_t>(event) + 1;
+    return at < words.size() ? number_of(words[at]).value_or(0) : 0;
   }
 
   std::string name_of(std::string_view text) {
@@ -88,24 +120,28 @@ class Reader {
   /// The line after "calls=" has the place and the cost of the call.
   void add_call(std::string_view line) {
     after_calls_ = false;
-    const auto space = line.find(' ');
-    const auto cost = number_of(space == std::string_view::npos ? "" : line.substr(space + 1));
+    const auto words = words_of(line);
+    const auto cost = is_position(line) ? number_of(words.size() > 1 ? words[1] : "0") : std::nullopt;
     if (!cost) fail("a call has no cost", line_);
     if (const auto [begin, end] = graph_.calls.equal_range(caller_); begin != end) {
       const auto known = std::find_if(begin, end, [&](const auto& call) { return call.second.name == callee_; });
       if (known != end) {
         known->second.instructions += *cost;
+        known->second.calls += count_;
         return;
       }
     }
-    graph_.calls.emplace(caller_, CallGraph::Callee{callee_, *cost});
+    graph_.calls.emplace(caller_, CallGraph::Callee{callee_, *cost, count_});
   }
 
   CallGraph graph_;
   Names names_;
   std::string caller_, callee_;
+  std::uint64_t* own_ = nullptr;  ///< instructions of the caller
+  std::uint64_t count_ = 0;       ///< of calls
+  std::vector<std::string> events_;
   long long line_ = 0;
-  bool after_calls_ = false, counts_instructions_ = false, is_by_line_ = false;
+  bool after_calls_ = false, is_by_line_ = false;
 };
 
 }  // namespace

@@ -8,17 +8,20 @@
 
 namespace ccdt::gate {
 
-/// The calls between functions, and their costs.
+/// The costs and calls of functions. Names are demangled, without the marks of clones and of recursion.
 struct CallGraph {
   struct Callee {
-    std::string name;                ///< demangled, without the marks of clones and of recursion
+    std::string name;
     std::uint64_t instructions = 0;  ///< inclusive cost of all calls from this caller
+    std::uint64_t calls = 0;
   };
   std::multimap<std::string, Callee, std::less<>> calls;  ///< by the name of the caller
+  std::map<std::string, std::uint64_t, std::less<>> own;  ///< instructions of each function without its callees
+  std::uint64_t system_calls = 0;                         ///< if the profile counts them
 };
 
 /// Reads the profile that callgrind writes for one process: https://valgrind.org/docs/manual/cl-format.html
-/// \throw InputError  it is not a profile, or counts something other than instructions; names the line
+/// \throw InputError  it is not a profile, or counts no instructions; names the line
 CallGraph read_callgrind(std::string_view profile);
 
 /// The qualified name of a function without its parameters: "ccdt::plc::build_plc". The full name for something inside

@@ -13,8 +13,7 @@ namespace ccdt::gate {
 namespace {
 
 constexpr double lost_badness = std::numeric_limits<double>::max();  ///< before all figures with a size
-constexpr std::size_t fewest_runs =
-    6;  ///< with fewer, no interval of a median has 95% confidence (2 * 0.5^5 is more than 5%)
+constexpr double trimmed = 0.2;                                      ///< share at each end of the ratios of a counter
 
 bool is_whole(double value) {
   return value == std::floor(value);
@@ -54,6 +53,7 @@ JudgedFigure lost(const Figure& base, const CaseFigures& one) {
 JudgedFigure added(const Figure& head, const CaseFigures& one) {
   JudgedFigure judged = start({head.name, head.layer, {}, "missing"}, head, one);
   judged.changed = true;
+  judged.is_gated = false;
   judged.words = "is new";
   return judged;
 }
@@ -97,6 +97,63 @@ void judge_texts(JudgedFigure& judged) {
   judged.words = "must stay the same; exact";
 }
 
+/// Lists a figure that is not gated, with the reason.
+JudgedFigure not_gated(JudgedFigure judged, const std::string& why) {
+  judged.verdict = Judgment::incomparable;
+  judged.is_gated = false;
+  judged.words = why;
+  return judged;
+}
+
+/// A counter that a rule names, and that differs between runs: by the ratios of pairs.
+void judge_by_pairs(const Figure& base, const Figure& head, const ExactRules& rules, JudgedFigure& judged) {
+  std::vector<double> losses;
+  const double sign = better_of(rules, judged.name) == Better::more ? -1 : 1;
+  for (std::size_t i = 0; i < base.samples.size(); ++i)
+    if (base.samples[i] > 0 && head.samples[i] > 0)
+      losses.push_back(sign * std::log(head.samples[i] / base.samples[i]));
+  const double tolerance = std::log1p(tolerance_of(rules, judged.name));
+  if (losses.size() < std::max<std::size_t>(2, base.samples.size())) {
+    judged.verdict = Judgment::incomparable;
+    judged.words = "is not positive in all runs, so there are no ratios";
+    return;
+  }
+  const bench::Estimate loss = bench::trimmed_mean_estimate(losses, trimmed);
+  const bool is_turned = sign < 0;
+  judged.ratio = std::exp(sign * loss.value);
+  judged.interval = bench::Estimate{*judged.ratio, std::exp(is_turned ? -loss.high : loss.low),
+                                    std::exp(is_turned ? -loss.low : loss.high)};
+  if (loss.low > tolerance) {
+    judged.verdict = Judgment::worse;
+    judged.changed = true;
+    judged.badness = loss.value;
+    judged.words = "the whole interval is beyond the tolerance of " + results::percent(std::expm1(tolerance));
+  } else if (loss.high > tolerance) {
+    judged.verdict = Judgment::undecided;
+    judged.words = "the interval is on both sides of the tolerance of " + results::percent(std::expm1(tolerance)) +
+                   "; a larger tolerance or more pairs would decide it";
+  }
+}
+
+/// Counters that differ from run to run, or are not whole, are judged only by a rule.
+std::optional<JudgedFigure> judge_counter(const Figure& base, const Figure& head, const CaseFigures& one,
+                                          const Rules& rules, bool in_turns) {
+  const bool is_ruled = has_rule(rules.exact, head.name);
+  const bool agrees = agree_among_runs(base, rules.exact.relative);
+  if (!base.text.empty() && base.text == head.text)
+    return not_gated(start(base, head, one), "is " + base.text + " in both");
+  if (!is_ruled && !std::ranges::all_of(base.samples, is_whole))
+    return not_gated(start(base, head, one), "is not a whole number, and no rule names it");
+  if (!is_ruled && !agrees)
+    return not_gated(start(base, head, one), "differs between runs of the base, and no rule names it");
+  const bool is_paired =
+      in_turns && base.samples.size() == head.samples.size() && base.text.empty() && head.text.empty();
+  if (!is_ruled || !is_paired || (agrees && agree_among_runs(head, rules.exact.relative))) return {};
+  JudgedFigure judged = start(base, head, one);
+  judge_by_pairs(base, head, rules.exact, judged);
+  return judged;
+}
+
 JudgedFigure judge_exact(const Figure& base, const Figure& head, const CaseFigures& one, const ExactRules& rules) {
   JudgedFigure judged = start(base, head, one);
   if (!agree_among_runs(head, rules.relative) || !agree_among_runs(base, rules.relative)) {
@@ -136,7 +193,11 @@ bool is_zero_work(const std::string& figure, const CaseFigures& one) {
   return is_work(figure) && std::ranges::any_of(one.figures, is_work, &Figure::name);
 }
 
-void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const Rules& rules,
+bool is_counter(const Figure& figure) {
+  return figure.name.starts_with(counter_prefix);
+}
+
+void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const Rules& rules, bool in_turns,
                         std::vector<JudgedFigure>& all) {
   if (auto status = judge_status(base, head)) {
     all.push_back(*std::move(status));
@@ -148,8 +209,11 @@ void compare_exact_case(const CaseFigures& base, const CaseFigures& head, const 
   for (const Figure& figure : base.figures) {
     if (!is_compared(figure)) continue;
     const Figure* now = find_figure(head, figure.name);
-    if (now != nullptr && now->layer != Layer::exact) continue;  // a counter that looks like a rate in one of the two
-    if (now != nullptr)
+    auto counter = now != nullptr && is_counter(figure) ? judge_counter(figure, *now, head, rules, in_turns)
+                                                        : std::optional<JudgedFigure>();
+    if (counter)
+      all.push_back(*std::move(counter));
+    else if (now != nullptr)
       all.push_back(judge_exact(figure, *now, head, rules.exact));
     else if (is_zero_work(figure.name, head))
       all.push_back(judge_exact(figure, {figure.name, Layer::exact, {0}}, head, rules.exact));
@@ -198,10 +262,7 @@ std::vector<JudgedFigure> list_times(const Recording& base, const Recording& hea
       const Figure* before = find_figure(*then, figure.name);
       if (figure.layer != Layer::time || before == nullptr || !is_gated(rules, Layer::time, one.name, figure.name))
         continue;
-      JudgedFigure judged = start(*before, figure, one);
-      judged.verdict = Judgment::incomparable;
-      judged.words = "recorded earlier, not measured in turns";
-      all.push_back(std::move(judged));
+      all.push_back(not_gated(start(*before, figure, one), "recorded earlier, not measured in turns"));
     }
   }
   return all;
@@ -219,37 +280,20 @@ bool have_common_case(const Recording& base, const Recording& head) {
   return std::ranges::any_of(base.cases, [&](const CaseFigures& one) { return find_case(head, one.name) != nullptr; });
 }
 
-/// Compares one command of hyperfine with the first.
-JudgedFigure judge_command(const Figure& base, const Figure& head, const CaseFigures& one, const TimeRules& rules,
-                           double confidence) {
-  JudgedFigure judged = start(base, head, one);
-  if (base.samples.size() < fewest_runs || head.samples.size() < fewest_runs || *judged.base <= 0) {
-    judged.verdict = Judgment::undecided;
-    judged.words = "an interval needs at least " + std::to_string(fewest_runs) + " runs of each";
-    return judged;
-  }
-  const bench::Estimate ratio = bench::ratio_of_medians(head.samples, base.samples, {.confidence = confidence});
-  judged.interval = ratio;
-  judged.ratio = ratio.value;
-  const double threshold = std::max(rules.relative, rules.absolute_seconds / *judged.base);
-  const double noise = (ratio.high - ratio.low) / 2 / ratio.value;
-  if (ratio.low > 1 + threshold) {
-    judged.verdict = Judgment::worse;
-    judged.changed = true;
-    judged.badness = std::log(ratio.value);
-    judged.words = "the whole interval is beyond " + results::rounded(100 * threshold) + "%";
-  } else if (ratio.high > 1 + threshold && noise > rules.largest_noise) {
-    judged.verdict = Judgment::undecided;
-    judged.words = "noise of " + results::rounded(100 * noise, 2) + "% either way; " +
-                   results::rounded(100 * rules.largest_noise, 2) + "% would do";
-  } else if (ratio.high < 1 / (1 + threshold)) {
-    judged.changed = true;
-    judged.words = "better";
-  }
+}  // namespace
+
+JudgedFigure lost_case(const CaseFigures& one, Layer layer, const Rules& rules) {
+  JudgedFigure judged = lost({case_figure, layer, {}, "measured"}, one);
+  if (!matches(rules.may_be_missing, one.name)) return judged;
+  judged.verdict = Judgment::passed;
+  judged.is_gated = false;
+  judged.words = "is in the base only, as the rules allow";
   return judged;
 }
 
-}  // namespace
+JudgedFigure added_case(const CaseFigures& one, Layer layer) {
+  return added({case_figure, layer, {}, "measured"}, one);
+}
 
 std::string other_conditions(const Recording& base, const Recording& head) {
   std::set<std::string> fields;
@@ -275,13 +319,12 @@ std::vector<JudgedFigure> compare_exact(const Recording& base, const Recording& 
   for (const CaseFigures& one : base.cases) {
     const CaseFigures* now = find_case(head, one.name);
     if (now != nullptr)
-      compare_exact_case(one, *now, rules, all);
+      compare_exact_case(one, *now, rules, base.in_turns && head.in_turns, all);
     else if (is_gated_case(rules, one))
-      all.push_back(lost({"case", Layer::exact, {}, "measured"}, one));
+      all.push_back(lost_case(one, Layer::exact, rules));
   }
   for (const CaseFigures& one : head.cases)
-    if (find_case(base, one.name) == nullptr && is_gated_case(rules, one))
-      all.push_back(added({"case", Layer::exact, {}, "measured"}, one));
+    if (find_case(base, one.name) == nullptr && is_gated_case(rules, one)) all.push_back(added_case(one, Layer::exact));
   return all;
 }
 
@@ -311,26 +354,6 @@ std::vector<JudgedFigure> compare_recordings(const Recording& recorded, const Re
   std::vector<JudgedFigure> all = compare_exact(base, head, rules);
   for (auto&& some : {compare_instructions(base, head, rules), list_times(base, head, rules)})
     all.insert(all.end(), some.begin(), some.end());
-  return all;
-}
-
-std::vector<JudgedFigure> compare_commands(const Recording& recording, const Rules& rules) {
-  std::vector<JudgedFigure> all;
-  if (recording.cases.empty()) return all;
-  const CaseFigures& base = recording.cases.front();
-  const auto heads = static_cast<double>(recording.cases.size() - 1);
-  for (std::size_t i = 1; i < recording.cases.size(); ++i) {
-    const CaseFigures& one = recording.cases[i];
-    const TimeRules& limits = time_rules_of(rules, one.name);
-    for (const Figure& figure : one.figures) {
-      const Figure* before = find_figure(base, figure.name);
-      if (before == nullptr || !is_gated(rules, figure.layer, one.name, figure.name)) continue;
-      if (figure.layer == Layer::exact)
-        all.push_back(judge_exact(*before, figure, one, rules.exact));
-      else
-        all.push_back(judge_command(*before, figure, one, limits, 1 - (1 - limits.confidence) / heads));
-    }
-  }
   return all;
 }
 

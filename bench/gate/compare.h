@@ -15,7 +15,8 @@ namespace ccdt::gate {
 /// If two recordings have no case in common, nothing is compared.
 std::vector<JudgedFigure> compare_recordings(const Recording& recorded, const Recording& head, const Rules& rules);
 
-/// Compares the exact figures only.
+/// Compares the exact figures only. A counter that is a whole number in the base must stay the same; another one is
+/// judged if a rule names it (`has_rule`), and is otherwise listed as not gated.
 std::vector<JudgedFigure> compare_exact(const Recording& base, const Recording& head, const Rules& rules);
 
 /// Compares the instruction counts only.
@@ -24,8 +25,10 @@ std::vector<JudgedFigure> compare_instructions(const Recording& base, const Reco
 /// The first condition of instruction counts in which the recordings differ, with both values; empty if they agree.
 std::string other_conditions(const Recording& base, const Recording& head);
 
-/// Judges the commands of one recording whose runs did not take turns, with the first as the base: by the ratio of the
-/// medians of independent samples.
-std::vector<JudgedFigure> compare_commands(const Recording& recording, const Rules& rules);
+/// The verdict on a case that only the base has: worse, unless the rules allow it.
+JudgedFigure lost_case(const CaseFigures& one, Layer layer, const Rules& rules);
+
+/// A case that only the head has. There is nothing to compare it with.
+JudgedFigure added_case(const CaseFigures& one, Layer layer);
 
 }  // namespace ccdt::gate

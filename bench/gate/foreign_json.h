@@ -1,16 +1,25 @@
 #pragma once
 
+#include <string>
+
 #include "bench/gate/recording.h"
 #include "bench/json.h"
 
 /// Recordings of other programs.
 namespace ccdt::gate {
 
+/// Parses the JSON of a benchmark. Google Benchmark writes NaN and Infinity, which JSON does not have; here they are
+/// the texts "NaN", "Infinity" and "-Infinity".
+///
+/// \throw nlohmann::json::exception  it is not JSON, or a number is larger than any double
+bench::Json parse_benchmark_json(const std::string& text);
+
 /// Is it the output of Google Benchmark's `--benchmark_out`?
 bool is_google_benchmark(const bench::Json& json);
 
-/// Adds a case for each benchmark: repetitions are samples, aggregates are left out, times are in seconds. Counters
-/// that are whole numbers are exact figures; the others count as rates, which are no better than times, with a note.
+/// Adds a case for each benchmark: repetitions are samples, and times are in seconds. Aggregates are left out, unless
+/// there is nothing else: then the median counts. The counters of a benchmark are exact figures, "counters.NAME"; see
+/// `is_gated_counter`.
 ///
 /// \throw nlohmann::json::exception  a name is missing, or of another type
 void add_google_benchmark(const bench::Json& json, Recording& recording);

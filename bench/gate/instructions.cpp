@@ -21,28 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The C library chooses string functions and thresholds by the processor. These settings work on all processors; names
-/// that a version of the library does not know are ignored. Without fast bins, the stage that frees memory pays for it.
-/// With them, all are merged in the stage that first requests a large block, and a few bytes decide which stage that
-/// is.
-constexpr const char* tunables =
-    "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX2,-AVX2_Usable,-ERMS,-FSRM:"
-    "glibc.cpu.x86_data_cache_size=32768:glibc.cpu.x86_shared_cache_size=1048576:"
-    "glibc.cpu.x86_non_temporal_threshold=786432:glibc.malloc.mxfast=0";
 constexpr std::size_t shown_digits = 12;
 
 /// The files have the same names in every run: a longer path moves objects on the heap, which changes counts.
 constexpr const char* program_name = "program";
 constexpr const char* profile_name = "profile";
 constexpr const char* report_name = "report.json";
-
-fs::path find_valgrind() {
-  const auto found = baselines::find_on_path("valgrind");
-  if (!found)
-    throw InputError("instructions cannot be counted: there is no valgrind", {},
-                     "install it (Debian: apt-get install valgrind), or remove the layer instructions from the rules");
-  return *found;
-}
 
 /// "2.36 (libc.so.6 1a2b3c...)". The hash is there because distributions patch a library without a new version number.
 std::string library(const std::string& version, const std::string& name_begins) {
@@ -82,7 +66,7 @@ std::vector<std::string> command_of(const fs::path& valgrind, const std::string&
                                     const std::vector<std::string>& options) {
   std::vector<std::string> command = {"/usr/bin/env", "-i",       "PATH=/usr/bin:/bin",
                                       "LC_ALL=C",     "TMPDIR=.", "LD_BIND_NOW=1"};
-  command.insert(command.end(), {tunables, valgrind.string(), "-q", "--tool=callgrind",
+  command.insert(command.end(), {same_on_all_processors, valgrind.string(), "-q", "--tool=callgrind",
                                  std::string("--callgrind-out-file=") + profile_name, std::string("./") + program_name,
                                  "mesh", input, "-o", "mesh.vtu", "--report", report_name, "--threads", "1"});
   command.insert(command.end(), options.begin(), options.end());
@@ -130,6 +114,14 @@ void add_figures(const StageInstructions& stages, CaseFigures& figures) {
 }
 
 }  // namespace
+
+fs::path find_valgrind() {
+  const auto found = baselines::find_on_path("valgrind");
+  if (!found)
+    throw InputError("instructions cannot be counted: there is no valgrind", {},
+                     "install it (Debian: apt-get install valgrind), or remove the layer instructions from the rules");
+  return *found;
+}
 
 cases::Identity instruction_identity(const fs::path& program) {
   const fs::path valgrind = find_valgrind();

@@ -27,6 +27,18 @@ using StageInstructions = std::map<std::string, std::uint64_t>;
 /// stripped
 StageInstructions stage_instructions(std::string_view profile);
 
+/// The C library chooses string functions and thresholds by the processor. These settings, a variable of the
+/// environment with its value, work on all processors; names that a version of the library does not know are ignored.
+/// Without fast bins, the stage that frees memory pays for it. With them, all are merged in the stage that first
+/// requests a large block, and a few bytes decide which stage that is.
+inline constexpr const char* same_on_all_processors =
+    "GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX512F,-AVX512VL,-AVX512BW,-AVX2,-AVX2_Usable,-ERMS,-FSRM:"
+    "glibc.cpu.x86_data_cache_size=32768:glibc.cpu.x86_shared_cache_size=1048576:"
+    "glibc.cpu.x86_non_temporal_threshold=786432:glibc.malloc.mxfast=0";
+
+/// The path of valgrind. \throw InputError  there is none; says what to do
+std::filesystem::path find_valgrind();
+
 /// The conditions on which instruction counts depend besides the program: "instructions.cpu", "instructions.valgrind",
 /// "instructions.libc", "instructions.libstdc++", and how the program was compiled, "instructions.compiler" and
 /// "instructions.flags".

@@ -11,7 +11,12 @@ namespace ccdt::bench {
 template <>
 inline constexpr auto fields<gate::Pair> = std::tuple(field("base", &gate::Pair::base),
                                                       field("head", &gate::Pair::head),
-                                                      field("head_first", &gate::Pair::head_first));
+                                                      field("head_first", &gate::Pair::head_first),
+                                                      optional_field("layout", &gate::Pair::layout));
+
+template <>
+inline constexpr auto fields<gate::PairedCounter> = std::tuple(field("base", &gate::PairedCounter::base),
+                                                               field("head", &gate::PairedCounter::head));
 
 template <>
 inline constexpr auto fields<gate::PairedSamples> = std::tuple(
@@ -20,11 +25,19 @@ inline constexpr auto fields<gate::PairedSamples> = std::tuple(
     field("head_command", &gate::PairedSamples::head_command),
     field("in_base_only", &gate::PairedSamples::in_base_only),
     field("in_head_only", &gate::PairedSamples::in_head_only), field("screening", &gate::PairedSamples::screening),
-    field("confirmation", &gate::PairedSamples::confirmation));
+    field("confirmation", &gate::PairedSamples::confirmation),
+    field_if_any("base_failure", &gate::PairedSamples::base_failure),
+    field_if_any("head_failure", &gate::PairedSamples::head_failure),
+    optional_field("timed_seconds", &gate::PairedSamples::timed_seconds),
+    field_if_any("counters", &gate::PairedSamples::counters));
 
 template <>
-inline constexpr auto fields<gate::SampleSet> = std::tuple(field("seed", &gate::SampleSet::seed),
-                                                           field("cases", &gate::SampleSet::cases));
+inline constexpr auto fields<gate::SampleSet> =
+    std::tuple(field("seed", &gate::SampleSet::seed), optional_field("clock_seconds", &gate::SampleSet::clock_seconds),
+               optional_field("rebuilt", &gate::SampleSet::is_rebuilt),
+               optional_field("base_program", &gate::SampleSet::base_program),
+               optional_field("head_program", &gate::SampleSet::head_program),
+               optional_field("finished", &gate::SampleSet::is_finished), field("cases", &gate::SampleSet::cases));
 
 }  // namespace ccdt::bench
 
@@ -34,7 +47,7 @@ namespace {
 constexpr bench::DocumentKind samples_kind = {"ccdt.samples/1", "not the samples of a gate",
                                               "give the samples.json that `ccdt gate` wrote"};
 
-constexpr double resolution = 1e-9;  ///< seconds; of the clocks. A stage may be over sooner
+constexpr double shortest = 1e-12;  ///< seconds; a stage may be over before the clock moves
 
 }  // namespace
 
@@ -49,7 +62,7 @@ std::vector<double> log_ratios(std::span<const Pair> pairs) {
   std::vector<double> ratios;
   ratios.reserve(pairs.size());
   for (const Pair& pair : pairs)
-    ratios.push_back(std::log(std::max(pair.head, resolution) / std::max(pair.base, resolution)));
+    ratios.push_back(std::log(std::max(pair.head, shortest) / std::max(pair.base, shortest)));
   return ratios;
 }
 

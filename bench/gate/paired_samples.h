@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,11 +23,17 @@ constexpr auto names_of(Side) {
 struct Pair {
   double base = 0, head = 0;  ///< seconds
   bool head_first = false;
+  int layout = 0;  ///< number of the build, of both programs
 
   bool operator==(const Pair&) const = default;
 };
 
-/// All times of one figure of one case. Those of the confirmation are fresh.
+/// The values of a counter, one of each pair.
+struct PairedCounter {
+  std::vector<double> base, head;
+};
+
+/// All that was measured of one case. The times of the confirmation are fresh.
 struct PairedSamples {
   std::string case_name;
   std::string figure;        ///< "seconds.mesh", "real_time", "wall"
@@ -35,12 +42,24 @@ struct PairedSamples {
   std::vector<Pair> screening;
   std::vector<Pair> confirmation;                   ///< empty if the case was not a suspect
   bool in_base_only = false, in_head_only = false;  ///< then there are no pairs
+  std::string base_failure, head_failure;           ///< why a program failed on it; empty: it did not
+  double timed_seconds = 0;                         ///< the shortest time that the clock measured at once
+  std::map<std::string, PairedCounter> counters = {};
+
+  bool has_failed() const { return !base_failure.empty() || !head_failure.empty(); }
+  bool is_comparable() const { return !in_base_only && !in_head_only && !has_failed(); }
 };
 
 /// The raw times of a gate, from which its verdict can be computed again: schema ccdt.samples/1.
 struct SampleSet {
   std::uint64_t seed = 0;  ///< seed of the order in pairs, the padding, and the bootstrap
   std::vector<PairedSamples> cases;
+  double clock_seconds = 0;                          ///< the smallest step of the clock
+  bool is_rebuilt = false;                           ///< each layout is a build of its own
+  std::string base_program = {}, head_program = {};  ///< hash of the file, and the arguments
+  bool is_finished = false;                          ///< all cases are decided, or no more pairs are allowed
+
+  bool is_same_program() const { return base_program == head_program && !base_program.empty(); }
 };
 
 /// The times of one side.

@@ -35,9 +35,12 @@ struct RunFile {
 Json parse(const std::filesystem::path& file) {
   const io::FileBytes bytes = io::read_whole_file(file);
   try {
-    return Json::parse(bytes.bytes);
+    return parse_benchmark_json(bytes.bytes);
   } catch (const Json::parse_error& error) {
     throw InputError("a recording is JSON, and this is not", io::line_of_byte(bytes, error.byte), what_can_be_read);
+  } catch (const Json::exception& error) {
+    throw InputError(std::string("a recording is JSON, and this cannot be read as such: ") + error.what(),
+                     io::place_in(file.string()), what_can_be_read);
   }
 }
 

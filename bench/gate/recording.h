@@ -36,10 +36,17 @@ struct CaseFigures {
   std::string name;     ///< by which base and head are matched
   std::string command;  ///< that repeats it
   std::vector<Figure> figures;
+  double timed_seconds = 0;  ///< the shortest time that the clock measured at once; 0 if unknown
 };
+
+/// Begins the names of the counters that the author of a benchmark defined.
+inline constexpr const char* counter_prefix = "counters.";
 
 /// The source of a recording.
 enum class Source { runs, google_benchmark, hyperfine, baseline };
+
+/// The figure that says whether a case is there at all.
+inline constexpr const char* case_figure = "case";
 
 /// The measurements of one program.
 struct Recording {
@@ -47,6 +54,7 @@ struct Recording {
   Source kind = Source::runs;
   cases::Identity identity = {};  ///< conditions of instruction counts, as field and value, such as "machine.cpu"
   std::vector<CaseFigures> cases = {};
+  bool in_turns = false;  ///< the n-th samples of this recording and of the other one were measured together
   std::vector<std::string> notes = {};  ///< which parts of the source are not in the figures, and why
 };
 
@@ -62,7 +70,7 @@ CaseFigures& case_named(const std::string& name, Recording& recording);
 /// hyperfine, or a ccdt.baseline/1.
 ///
 /// Several runs of a case are the samples of its figures. Their names are the paths in the JSON; those of a Google
-/// Benchmark are "seconds.real_time", "seconds.cpu_time" and its counters' own, those of hyperfine "seconds.elapsed"
+/// Benchmark are "seconds.real_time", "seconds.cpu_time" and "counters.NAME", those of hyperfine "seconds.elapsed"
 /// and "exit_codes".
 ///
 /// \throw InputError  it cannot be read, is none of these, or has no cases; names the file and the place in it

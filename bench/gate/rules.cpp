@@ -30,7 +30,9 @@ inline constexpr auto fields<gate::TimeRules> = std::tuple(
     optional_field("absolute_seconds", &gate::TimeRules::absolute_seconds),
     optional_field("confidence", &gate::TimeRules::confidence),
     optional_field("largest_noise", &gate::TimeRules::largest_noise),
-    optional_field("at_least", &gate::TimeRules::at_least), optional_field("at_most", &gate::TimeRules::at_most));
+    optional_field("at_least", &gate::TimeRules::at_least), optional_field("at_most", &gate::TimeRules::at_most),
+    optional_field("layouts", &gate::TimeRules::layouts),
+    field_if_any("layout_deviation", &gate::TimeRules::layout_deviation));
 
 }  // namespace ccdt::bench
 
@@ -104,6 +106,11 @@ Better better_of(const ExactRules& rules, const std::string& figure) {
   return Better::same;
 }
 
+bool has_rule(const ExactRules& rules, const std::string& figure) {
+  const auto names = [&](const auto& rule) { return is_like(rule.first, figure); };
+  return std::ranges::any_of(rules.tolerances, names) || std::ranges::any_of(rules.better, names);
+}
+
 double tolerance_of(const ExactRules& rules, const std::string& figure) {
   for (const auto& [pattern, share] : rules.tolerances)
     if (is_like(pattern, figure)) return share;
@@ -116,11 +123,27 @@ const TimeRules& time_rules_of(const Rules& rules, const std::string& case_name)
   return rules.time;
 }
 
+bench::Json to_json(const Rules& rules) {
+  Json json = {{"schema", "ccdt.rules/1"}, {"layers", rules.layers}, {"shadow", rules.shadow}};
+  json["exact"] = rules.exact;
+  for (const auto& [pattern, share] : rules.exact.tolerances) json["exact"]["tolerances"][pattern] = share;
+  for (const auto& [pattern, better] : rules.exact.better) json["exact"]["better"][pattern] = better;
+  json["instructions"] = rules.instructions;
+  json["time"] = rules.time;
+  json["special"] = Json::array();
+  for (const CaseRules& special : rules.special)
+    json["special"].push_back({{"cases", special.cases}, {"time", special.time}});
+  json["may_be_missing"] = rules.may_be_missing;
+  return json;
+}
+
 Rules read_rules(const std::filesystem::path& file) {
   const Json json = baselines::read_user_file(file, rules_file);
   Rules rules;
-  if (json.contains("layers")) json["layers"].get_to(rules.layers);
+  rules.layers_are_chosen = json.contains("layers");
+  if (rules.layers_are_chosen) json["layers"].get_to(rules.layers);
   rules.shadow = json.value("shadow", rules.shadow);
+  if (json.contains("may_be_missing")) json["may_be_missing"].get_to(rules.may_be_missing);
   rules.exact = exact_from(json.value("exact", Json::object()));
   bench::read_fields(json.value("instructions", Json::object()), bench::fields<InstructionRules>, rules.instructions);
   read_time(json.value("time", Json::object()), rules.time, file.string(), "/time");

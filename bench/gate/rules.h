@@ -2,12 +2,14 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/gate/recording.h"
+#include "bench/json.h"
 
 namespace ccdt::gate {
 
@@ -40,16 +42,18 @@ struct InstructionRules {
   double absolute = 100000;
 };
 
-/// Rules for times. Worse means: the whole interval is beyond both thresholds, twice.
+/// Rules for times. Worse means: the whole interval is beyond the largest of all thresholds, twice.
 struct TimeRules {
   std::vector<std::string> cases = {"*"};  ///< patterns of names
   std::string figure = "seconds.mesh";     ///< of the report of `ccdt mesh`; "wall": the time of the whole process
   double relative = 0.01;
-  double absolute_seconds = 0.0002;
+  double absolute_seconds = 0;  ///< of one run, or of one iteration of a benchmark
   double confidence = 0.95;
-  double largest_noise = 0.02;  ///< largest relative half-width of an interval that allows a verdict; the slowdown to
-                                ///< find is the threshold plus this
+  double largest_noise = 0.02;       ///< a case passes only if a slowdown by the threshold plus this is excluded
   int at_least = 20, at_most = 200;  ///< pairs
+  int layouts = 8;                   ///< builds of each program at the first look, if they are rebuilt
+  /// Standard deviation of log time between builds, if they are not rebuilt. None: `usual_layout_deviation`.
+  std::optional<double> layout_deviation = {};
 };
 
 /// Thresholds of some cases.
@@ -61,10 +65,12 @@ struct CaseRules {
 /// What is gated: schema ccdt.rules/1.
 struct Rules {
   std::set<Layer> layers = {Layer::exact, Layer::instructions, Layer::time};
+  bool layers_are_chosen = false;  ///< by the user: each of them must be judged
   ExactRules exact;
   InstructionRules instructions;
   TimeRules time;
-  std::vector<CaseRules> special;  ///< the first match counts
+  std::vector<CaseRules> special;           ///< the first match counts
+  std::vector<std::string> may_be_missing;  ///< patterns of cases that the head need not have
   bool shadow = false;
 };
 
@@ -81,8 +87,14 @@ Better better_of(const ExactRules& rules, const std::string& figure);
 /// The relative loss of an exact figure that passes.
 double tolerance_of(const ExactRules& rules, const std::string& figure);
 
+/// Does a rule say how to judge this figure: a tolerance, or which change is better?
+bool has_rule(const ExactRules& rules, const std::string& figure);
+
 /// The thresholds of a case.
 const TimeRules& time_rules_of(const Rules& rules, const std::string& case_name);
+
+/// All rules with their defaults, as JSON of schema ccdt.rules/1.
+bench::Json to_json(const Rules& rules);
 
 /// \throw InputError  the file cannot be read or is invalid; names the JSON pointer
 Rules read_rules(const std::filesystem::path& file);

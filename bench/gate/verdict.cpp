@@ -26,6 +26,9 @@ Json json_of(const JudgedFigure& figure) {
                {"base", value_of(figure.base, figure.base_text)},
                {"head", value_of(figure.head, figure.head_text)},
                {"ratio", value_of(figure.ratio, {})}};
+  json["gated"] = figure.is_gated;
+  json["limit"] = value_of(figure.limit, {});
+  json["smallest_found"] = value_of(figure.smallest_found, {});
   json["interval"] = figure.interval ? Json{figure.interval->low, figure.interval->high} : Json();
   json["words"] = figure.words;
   json["command"] = figure.command;
@@ -47,25 +50,48 @@ int rank(const JudgedFigure& figure) {
   return figure.changed ? 2 : 4;
 }
 
+/// A performance figure that was compared.
+bool is_evidence(const JudgedFigure& figure) {
+  return figure.is_gated && !is_about_the_end(figure) && figure.verdict != Judgment::incomparable;
+}
+
+LayerReport report_on(Layer layer, const std::vector<JudgedFigure>& figures) {
+  LayerReport report;
+  report.layer = layer;
+  for (const JudgedFigure& figure : figures) {
+    if (figure.layer != layer) continue;
+    report.is_judged = report.is_judged || is_evidence(figure);
+    if (report.why.empty() && figure.verdict == Judgment::incomparable) report.why = figure.words;
+  }
+  if (report.is_judged)
+    report.why.clear();
+  else if (report.why.empty())
+    report.why = "nothing was measured";
+  return report;
+}
+
 }  // namespace
+
+bool is_about_the_end(const JudgedFigure& figure) {
+  return figure.name == "status" || figure.name == "kind" || figure.name == "exit_codes" || figure.name == case_figure;
+}
 
 Judgment judgment_of(const std::vector<JudgedFigure>& figures) {
   const auto has = [&](Judgment judgment) {
-    return std::ranges::any_of(figures, [&](const JudgedFigure& figure) { return figure.verdict == judgment; });
+    return std::ranges::any_of(figures, [&](const JudgedFigure& f) { return f.is_gated && f.verdict == judgment; });
   };
-  if (has(Judgment::worse)) return Judgment::worse;
-  // It means little that both ran if none of their results can be compared.
-  const bool is_compared = std::ranges::any_of(figures, [&](const JudgedFigure& figure) {
-    const bool is_end = figure.name == "status" || figure.name == "exit_codes";
-    return figure.verdict == Judgment::undecided ||
-           (figure.verdict == Judgment::passed && !(is_end && has(Judgment::incomparable)));
-  });
-  if (!is_compared) return Judgment::incomparable;
-  return has(Judgment::undecided) ? Judgment::undecided : Judgment::passed;
+  for (const Judgment judgment : {Judgment::worse, Judgment::undecided, Judgment::incomparable})
+    if (has(judgment)) return judgment;
+  return std::ranges::any_of(figures, is_evidence) ? Judgment::passed : Judgment::incomparable;
 }
 
 void conclude(Verdict& verdict) {
+  verdict.layers.clear();
+  for (const Layer layer : verdict.rules.layers) verdict.layers.push_back(report_on(layer, verdict.figures));
   verdict.verdict = judgment_of(verdict.figures);
+  const bool is_complete = std::ranges::all_of(verdict.layers, &LayerReport::is_judged);
+  if (verdict.verdict == Judgment::passed && verdict.rules.layers_are_chosen && !is_complete)
+    verdict.verdict = Judgment::incomparable;
   std::ranges::stable_sort(verdict.figures, [](const JudgedFigure& a, const JudgedFigure& b) {
     if (rank(a) != rank(b)) return rank(a) < rank(b);
     return a.badness > b.badness;
@@ -83,9 +109,14 @@ bench::Json to_json(const Verdict& verdict) {
                {"base", verdict.base},
                {"head", verdict.head}};
   for (const NamedValue<Judgment>& judgment : names_of(Judgment{}))
-    json["counts"][std::string(judgment.name)] =
-        std::ranges::count(verdict.figures, judgment.value, &JudgedFigure::verdict);
+    json["counts"][std::string(judgment.name)] = std::ranges::count_if(
+        verdict.figures,
+        [&](const JudgedFigure& figure) { return figure.is_gated && figure.verdict == judgment.value; });
+  json["layers"] = Json::array();
+  for (const LayerReport& layer : verdict.layers)
+    json["layers"].push_back({{"layer", name_of(layer.layer)}, {"judged", layer.is_judged}, {"why", layer.why}});
   json["correction"] = verdict.correction;
+  json["rules"] = to_json(verdict.rules);
   json["notes"] = verdict.notes;
   json["figures"] = Json::array();
   for (const JudgedFigure& figure : verdict.figures) json["figures"].push_back(json_of(figure));

@@ -7,7 +7,9 @@
 #include <random>
 
 #include "baselines/external_program.h"
-#include "bench/gate/time_layer.h"
+#include "bench/gate/judge_times.h"
+#include "bench/gate/measure_times.h"
+#include "bench/tests/fake_targets.h"
 
 namespace ccdt::gate {
 namespace {
@@ -34,7 +36,7 @@ TEST(Calibration, KnowsTheNoiseOfEachCase) {
   EXPECT_NEAR(quiet.seconds, 0.1, 1e-9);
   EXPECT_EQ(quiet.pairs_needed, 20);
   EXPECT_NEAR(loud.pairs_needed, 70, 40);  // (1.96 * 0.04 / 0.01)^2, somewhat more for the trimmed mean
-  EXPECT_LT(quiet.noise_floor, loud.noise_floor);
+  for (const CaseNoise* one : {&quiet, &loud}) EXPECT_LT(one->noise_floor, 0.01) << "more pairs make up for noise";
   ASSERT_TRUE(quiet.smallest_found && loud.smallest_found);
   EXPECT_LT(*quiet.smallest_found, *loud.smallest_found);
   EXPECT_GT(*quiet.smallest_found, 0.01);
@@ -52,13 +54,14 @@ TEST(Calibration, TheSmallestSlowdownFoundIsFoundByRealGatesAboutAsOften) {
   std::normal_distribution<double> normal(0, 0.03 / std::sqrt(2));
   TimedTarget fake = {"a", "seconds.mesh"};
   fake.run = [&](const RunRequest& request) {
-    return std::map<std::string, double>{
-        {"a", 0.1 * (request.side == Side::head ? factor : 1) * std::exp(normal(random))}};
+    return measured({{"a", 0.1 * (request.side == Side::head ? factor : 1) * std::exp(normal(random))}});
   };
   fake.command = [](Side, const std::string&) { return ""; };
   int found = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    const SampleSet samples = measure_times(std::vector{fake}, {}, &c, seed, {});
+    SampleSet samples = start_samples(seed);
+    samples.head_program = "another build";
+    measure_times(std::vector{fake}, {}, {.calibration = &c}, samples);
     found += judgment_of(judge_times(samples, {}, &c)) == Judgment::worse;
   }
   EXPECT_GE(found, 175);
@@ -86,17 +89,31 @@ TEST(Calibration, NoiseThatNoGateOvercomesIsToldInAdvance) {
   EXPECT_LT(c.rates.false_alarms.value, 0.05);
 }
 
-TEST(Calibration, BothSidesAreTheBase) {
+TEST(Calibration, TakesAsManyPairsAsAskedAndConfirmsNothing) {
   TimedTarget fake = {"a", "seconds.mesh"};
-  int heads = 0;
-  fake.run = [&](const RunRequest& request) {
-    heads += request.side == Side::head;
-    return std::map<std::string, double>{{"a", 1}};
-  };
+  fake.run = [&](const RunRequest& request) { return measured({{"a", request.side == Side::head ? 1.5 : 1}}); };
   fake.command = [](Side, const std::string&) { return "again"; };
-  const SampleSet samples = measure_noise(std::vector{fake}, 45, 1, {});
+  SampleSet samples = start_samples(1);
+  measure_times(std::vector{fake}, rules_of_calibration({}, 45), {}, samples);
   EXPECT_EQ(samples.cases.front().screening.size(), 45U);
-  EXPECT_EQ(heads, 0);
+  EXPECT_TRUE(samples.cases.front().confirmation.empty());
+}
+
+TEST(Calibration, TellsTheSpreadOfBuildsFromTheNoiseOfRuns) {
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  PairedSamples samples = noise("a", 0, 0, 1);
+  for (int layout = 1; layout <= 40; ++layout) {
+    const double base = 0.02 * normal(random), head = 0.02 * normal(random);
+    for (int i = 0; i < 5; ++i)
+      samples.screening.push_back(
+          {std::exp(base + 0.01 * normal(random)), std::exp(head + 0.01 * normal(random)), false, layout});
+  }
+  const Calibration c = calibrate({1, {samples}}, {});
+  ASSERT_TRUE(c.cases.front().layout_deviation);
+  EXPECT_NEAR(*c.cases.front().layout_deviation, 0.02, 0.005);
+  EXPECT_NEAR(c.cases.front().deviation, 0.01 * std::sqrt(2.0), 0.003);
+  EXPECT_FALSE(calibrate({1, {noise("a", 0.01, 100, 1)}}, {}).cases.front().layout_deviation);
 }
 
 TEST(Calibration, IsTheSameAfterAFile) {

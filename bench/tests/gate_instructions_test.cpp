@@ -111,7 +111,6 @@ TEST(CallgrindProfileTest, OtherFilesAreErrors) {
   EXPECT_THROW(read_callgrind(""), InputError);
   EXPECT_THROW(read_callgrind("{\"schema\": \"ccdt.run/1\"}"), InputError);
   EXPECT_THROW(read_callgrind("positions: instr line\nevents: Ir\n"), InputError);
-  EXPECT_THROW(read_callgrind("positions: line\nevents: Ir Dr Dw\n"), InputError);
   EXPECT_THROW(read_callgrind("positions: line\nevents: Ir\nfn=(1)\n"), InputError);
   EXPECT_THROW(read_callgrind("positions: line\nevents: Ir\nfn=(1) a\ncfn=(2) b\ncalls=1 0\nfn=(2)\n"), InputError);
 }

@@ -1,5 +1,3 @@
-#include "bench/gate/time_layer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +9,10 @@
 #include <set>
 
 #include "baselines/external_program.h"
+#include "bench/gate/judge_times.h"
+#include "bench/gate/measure_times.h"
 #include "bench/gate/pair_statistics.h"
+#include "bench/tests/fake_targets.h"
 
 namespace ccdt::gate {
 namespace {
@@ -39,7 +40,7 @@ class FakeProgram {
 TimedTarget target(const std::string& name, double factor, std::uint64_t seed, double noise = 0.02) {
   TimedTarget fake = {name, "seconds.mesh"};
   fake.run = [=, program = std::make_shared<FakeProgram>(seed, noise)](const RunRequest& request) {
-    return std::map<std::string, double>{{name, program->seconds() * (request.side == Side::head ? factor : 1)}};
+    return measured({{name, program->seconds() * (request.side == Side::head ? factor : 1)}});
   };
   fake.command = [name](Side side, const std::string&) { return std::string(name_of(side)) + " " + name; };
   return fake;
@@ -57,7 +58,8 @@ struct Outcome {
 
 Outcome gate(const std::vector<TimedTarget>& targets, std::uint64_t seed, const Rules& rules = {}) {
   Outcome outcome;
-  outcome.samples = measure_times(targets, rules, nullptr, seed, {});
+  outcome.samples = start_samples(seed);
+  measure_times(targets, rules, {}, outcome.samples);
   outcome.figures = judge_times(outcome.samples, rules, nullptr);
   return outcome;
 }
@@ -136,7 +138,7 @@ TEST(TimeLayer, ASlowdownThatDoesNotComeBackPasses) {
     auto seconds = run(request);
     const bool is_slow = request.side == Side::head && *runs < 42;
     ++*runs;
-    seconds.begin()->second *= is_slow ? 1.2 : 1;
+    seconds.begin()->second.seconds *= is_slow ? 1.2 : 1;
     return seconds;
   };
   const Outcome outcome = gate({fake}, 1);
@@ -202,17 +204,21 @@ TEST(TimeLayer, VerdictsFollowFromTheSamplesOnFile) {
   }
 }
 
-TEST(TimeLayer, ACaseOfOneProgramOnlyIsIncomparable) {
+TEST(TimeLayer, AMissingCaseIsWorseUnlessTheRulesAllowItAndANewOneIsOnlyListed) {
   TimedTarget fake = {"two", "real_time"};
   fake.run = [](const RunRequest& request) {
-    return std::map<std::string, double>{{"both", 1}, {request.side == Side::head ? "new" : "old", 1}};
+    return measured({{"both", 1}, {request.side == Side::head ? "new" : "old", 1}});
   };
   fake.command = [](Side, const std::string& name) { return name; };
   const Outcome outcome = gate({fake}, 1);
   EXPECT_EQ(outcome.of("both").verdict, Judgment::passed);
-  EXPECT_EQ(outcome.of("new").verdict, Judgment::incomparable);
-  EXPECT_EQ(outcome.of("old").verdict, Judgment::incomparable);
-  EXPECT_NE(outcome.of("new").words, outcome.of("old").words);
+  EXPECT_EQ(outcome.of("old").verdict, Judgment::worse);
+  EXPECT_EQ(outcome.of("new").verdict, Judgment::passed);
+  EXPECT_FALSE(outcome.of("new").is_gated);
+  Rules rules;
+  rules.may_be_missing = {"ol*"};
+  EXPECT_EQ(gate({fake}, 1, rules).verdict(), Judgment::passed);
+  EXPECT_EQ(gate({fake}, 1, rules).figures.size(), 3U) << "it is listed all the same";
 }
 
 TEST(TimeLayer, OnlyCasesThatTheRulesNameAreTimed) {
@@ -226,16 +232,298 @@ TEST(TimeLayer, ANoiseFloorOfACalibrationRaisesTheThreshold) {
   calibration.cases.emplace_back();
   calibration.cases.back().case_name = "a";
   calibration.cases.back().noise_floor = 0.2;
-  const SampleSet samples = measure_times(std::vector{target("a", 1.06, 1)}, {}, nullptr, 1, {});
+  SampleSet samples = start_samples(1);
+  measure_times(std::vector{target("a", 1.06, 1)}, {}, {}, samples);
   EXPECT_EQ(judgment_of(judge_times(samples, {}, nullptr)), Judgment::worse);
   EXPECT_EQ(judgment_of(judge_times(samples, {}, &calibration)), Judgment::passed);
 }
 
-TEST(PairStatistics, ThresholdIsTheLargestOfAll) {
+TEST(TimeLayer, PassingExcludesASlowdownBeyondTheLimit) {
+  // Programs that are slower by just the limit: however often the gate looks, few pass.
+  Rules rules;
+  int passed = 0;
+  constexpr int gates = 300;
+  const double at_limit = std::exp(std::log1p(rules.time.relative) + rules.time.largest_noise);
+  for (std::uint64_t seed = 0; seed < gates; ++seed)
+    passed += gate({target("a", at_limit, 1000 + seed, 0.04)}, seed, rules).verdict() == Judgment::passed;
+  EXPECT_LE(bench::share_of(passed, gates).low, 0.05);
+}
+
+TEST(TimeLayer, TenTimesSlowerNeverPassesAtAnyTimePerIteration) {
+  for (const double seconds : {1e-12, 1e-9, 1e-8, 1e-6, 1e-4, 1e-2, 1.0, 10.0})
+    for (const double absolute : {0.0, 0.0002, 1.0}) {
+      TimedTarget fake = {"bench", "real_time"};
+      fake.run = [=](const RunRequest& request) {
+        return measured({{"a", seconds * (request.side == Side::head ? 10 : 1)}});
+      };
+      fake.command = [](Side, const std::string&) { return ""; };
+      Rules rules;
+      rules.time.absolute_seconds = absolute;
+      SampleSet samples = start_samples(1);
+      samples.clock_seconds = 2e-8;
+      measure_times(std::vector{fake}, rules, {}, samples);
+      const Judgment verdict = judgment_of(judge_times(samples, rules, nullptr));
+      EXPECT_TRUE(verdict == Judgment::worse || verdict == Judgment::undecided)
+          << seconds << " s, absolute " << absolute;
+      if (absolute == 0 && seconds >= 1e-8) {
+        EXPECT_EQ(verdict, Judgment::worse) << seconds;
+      }
+    }
+}
+
+TEST(TimeLayer, AProgramThatFailsDoesNotHideOtherCases) {
+  TimedTarget fake = {"bench", "real_time"};
+  const std::vector<std::string> all = {"base crashes", "both crash", "good", "head crashes"};
+  fake.list = [=](Side) { return all; };
+  fake.command = [](Side side, const std::string& name) { return std::string(name_of(side)) + " " + name; };
+  fake.run = [=](const RunRequest& request) {
+    Measured result;
+    const std::string side(name_of(request.side));
+    for (const std::string& name : all) {
+      if (!request.cases.empty() && !request.cases.contains(name)) continue;
+      if (name.starts_with(side) || name.starts_with("both"))
+        throw ProgramFailed(request.side, "SIGSEGV in " + name, {}, "");
+      result.merge(measured({{name, 1}}));
+    }
+    return result;
+  };
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Outcome outcome = gate({fake}, seed);
+    EXPECT_EQ(outcome.figures.size(), 4U);
+    EXPECT_EQ(outcome.of("good").verdict, Judgment::passed);
+    EXPECT_EQ(outcome.of("head crashes").verdict, Judgment::worse);
+    EXPECT_EQ(outcome.of("base crashes").verdict, Judgment::incomparable);
+    EXPECT_EQ(outcome.of("both crash").verdict, Judgment::incomparable);
+    EXPECT_NE(outcome.of("both crash").words.find("SIGSEGV"), std::string::npos);
+    EXPECT_EQ(outcome.verdict(), Judgment::worse);
+  }
+}
+
+TEST(TimeLayer, ACrashAfterGoodRunsIsOneRow) {
+  auto runs = std::make_shared<int>(0);
+  TimedTarget fake = {"bench", "real_time"};
+  fake.command = [](Side, const std::string&) { return ""; };
+  fake.run = [=](const RunRequest& request) {
+    Measured result;
+    for (const std::string name : {"good", "late"}) {
+      if (!request.cases.empty() && !request.cases.contains(name)) continue;
+      if (name == "late" && request.side == Side::head && ++*runs > 10) throw ProgramFailed(Side::head, "late", {}, "");
+      result.merge(measured({{name, 1}}));
+    }
+    return result;
+  };
+  const Outcome outcome = gate({fake}, 1);
+  EXPECT_EQ(outcome.of("late").verdict, Judgment::worse);
+  EXPECT_EQ(outcome.of("good").verdict, Judgment::passed);
+}
+
+TEST(TimeLayer, TheHeadMayTakeManyTimesAsLongAsTheBaseButNotForEver) {
+  std::map<Side, double> limits;
+  TimedTarget fake = target("a", 1, 1);
+  fake.run = [run = fake.run, &limits](const RunRequest& request) {
+    limits[request.side] = request.most_seconds;
+    return run(request);
+  };
+  gate({fake}, 1);
+  EXPECT_GE(limits.at(Side::head), 10);
+  EXPECT_LT(limits.at(Side::head), 60);
+}
+
+TEST(TimeLayer, AStoppedGateGoesOnWhereItWas) {
+  int runs = 0;
+  TimedTarget fake = target("a", 1, 1);
+  fake.run = [run = fake.run, &runs](const RunRequest& request) {
+    if (++runs == 20) throw baselines::Stopped();
+    return run(request);
+  };
+  SampleSet samples = start_samples(1);
+  EXPECT_THROW(measure_times(std::vector{fake}, {}, {}, samples), baselines::Stopped);
+  const std::size_t kept = samples.cases.front().screening.size();
+  EXPECT_EQ(kept, 8U);
+  EXPECT_FALSE(samples.is_finished);
+  const auto first = samples.cases.front().screening;
+  measure_times(std::vector{fake}, {}, {}, samples);
+  EXPECT_TRUE(samples.is_finished);
+  EXPECT_GE(samples.cases.front().screening.size(), 20U);
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), samples.cases.front().screening.begin()));
+}
+
+TEST(TimeLayer, ProgressHasATotalAndEndsAtIt) {
+  TimeProgress last;
+  SampleSet samples = start_samples(3);
+  const MeasureOptions options = {.progress = [&](const TimeProgress& now) {
+    EXPECT_GE(now.expected, now.pairs);
+    EXPECT_GE(now.pairs, last.pairs);
+    last = now;
+  }};
+  measure_times(std::vector{target("a", 1, 1), target("b", 1.2, 2)}, {}, options, samples);
+  EXPECT_EQ(last.cases, 2U);
+  EXPECT_EQ(last.expected, last.pairs);
+}
+
+// Counters.
+
+TimedTarget counting(const std::string& counter, double base, double head, double noise = 0) {
+  TimedTarget fake = {"bench", "real_time"};
+  fake.command = [](Side, const std::string&) { return ""; };
+  fake.run = [=, random = std::make_shared<std::mt19937_64>(5)](const RunRequest& request) {
+    Measured result = measured({{"a", 1}});
+    const double scatter = noise * (static_cast<double>((*random)() >> 11) * 0x1p-53 - 0.5);
+    result.at("a").counters[counter] = (request.side == Side::head ? head : base) * (1 + scatter);
+    return result;
+  };
+  return fake;
+}
+
+Judgment counter_verdict(const TimedTarget& fake, const Rules& rules = {}) {
+  const Outcome outcome = gate({fake}, 1, rules);
+  const auto found = std::ranges::find(outcome.figures, "counters.n", &JudgedFigure::name);
+  EXPECT_NE(found, outcome.figures.end());
+  return found->is_gated ? found->verdict : Judgment::incomparable;
+}
+
+TEST(CounterTest, WholeNumbersMustStayTheSame) {
+  EXPECT_EQ(counter_verdict(counting("n", 12, 12)), Judgment::passed);
+  EXPECT_EQ(counter_verdict(counting("n", 12, 18)), Judgment::worse);
+  EXPECT_EQ(counter_verdict(counting("n", 12, 18.5)), Judgment::worse);
+  EXPECT_EQ(counter_verdict(counting("n", 12, 11)), Judgment::worse) << "until a rule says that fewer is better";
+}
+
+TEST(CounterTest, OthersAreJudgedByARuleOnly) {
+  Rules rules;
+  EXPECT_EQ(counter_verdict(counting("n", 1.5, 2.5)), Judgment::incomparable);
+  rules.exact.tolerances = {{"counters.n", 0.05}};
+  rules.exact.better = {{"counters.n", Better::more}};
+  EXPECT_EQ(counter_verdict(counting("n", 1.5, 2.5), rules), Judgment::passed);
+  EXPECT_EQ(counter_verdict(counting("n", 1.5, 1.3), rules), Judgment::worse);
+  EXPECT_EQ(counter_verdict(counting("n", 1.5, 1.48), rules), Judgment::passed);
+}
+
+TEST(CounterTest, ThoseThatScatterAreJudgedByTheRatiosOfPairs) {
+  Rules rules;
+  EXPECT_EQ(counter_verdict(counting("n", 1000, 1000, 0.1)), Judgment::incomparable);
+  rules.exact.tolerances = {{"counters.n", 0.05}};
+  rules.exact.better = {{"counters.n", Better::more}};
+  EXPECT_EQ(counter_verdict(counting("n", 1000, 1000, 0.1), rules), Judgment::passed);
+  EXPECT_EQ(counter_verdict(counting("n", 1000, 800, 0.1), rules), Judgment::worse);
+  EXPECT_EQ(counter_verdict(counting("n", 1000, 953, 0.1), rules), Judgment::undecided);
+  EXPECT_EQ(counter_verdict(counting("n", 1000, 1300, 0.1), rules), Judgment::passed);
+}
+
+TEST(CounterTest, WhatIsNotANumberIsNamedAndNotGated) {
+  const double nan = std::nan("");
+  EXPECT_EQ(counter_verdict(counting("n", nan, nan)), Judgment::incomparable);
+  EXPECT_EQ(counter_verdict(counting("n", 12, nan)), Judgment::worse);
+}
+
+// Layouts.
+
+/// A program whose builds differ in speed, for good. The head's are slower by the factor.
+TimedTarget rebuilt(const std::string& name, double factor, double deviation, std::uint64_t seed) {
+  TimedTarget fake = {name, "real_time"};
+  fake.command = [](Side, const std::string&) { return ""; };
+  fake.run = [=, noise = std::make_shared<FakeProgram>(seed)](const RunRequest& request) {
+    std::mt19937_64 of_build(seed * 1000003 + static_cast<std::uint64_t>(request.layout) * 2 +
+                             (request.side == Side::head));
+    of_build.discard(10);
+    const double speed = std::exp(deviation * std::normal_distribution<double>()(of_build));
+    return measured({{name, noise->seconds() * speed * (request.side == Side::head ? factor : 1)}});
+  };
+  return fake;
+}
+
+Judgment gate_of_builds(double factor, double deviation, std::uint64_t seed, bool is_rebuilt) {
+  std::vector<TimedTarget> targets;
+  for (int i = 0; i < 10; ++i)
+    targets.push_back(rebuilt("case " + std::to_string(i), i == 0 ? factor : 1, deviation, seed * 10 + i));
+  SampleSet samples = start_samples(seed);
+  samples.head_program = "another build";
+  samples.is_rebuilt = is_rebuilt;
+  measure_times(targets, {}, {}, samples);
+  return judgment_of(judge_times(samples, {}, nullptr));
+}
+
+TEST(LayoutTest, BuildsThatDifferAreNoSlowdownWhetherRebuiltOrNot) {
+  constexpr int gates = 100;
+  int alarms_of_one = 0, alarms_of_many = 0;
+  for (std::uint64_t seed = 0; seed < gates; ++seed) {
+    alarms_of_one += gate_of_builds(1, builds_of_loops, seed, false) == Judgment::worse;
+    alarms_of_many += gate_of_builds(1, 0.01, seed, true) == Judgment::worse;
+  }
+  EXPECT_LE(bench::share_of(alarms_of_one, gates).low, 0.02);
+  EXPECT_LE(bench::share_of(alarms_of_many, gates).low, 0.02);
+}
+
+TEST(LayoutTest, SeveralBuildsFindFivePercent) {
+  int found = 0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) found += gate_of_builds(1.05, 0.01, seed, true) == Judgment::worse;
+  EXPECT_GE(found, 45);
+}
+
+TEST(LayoutTest, EachLayoutIsOneObservationAndTheConfirmationHasNewOnes) {
+  SampleSet samples = start_samples(1);
+  samples.is_rebuilt = true;
+  measure_times(std::vector{rebuilt("a", 1.2, 0.01, 1)}, {}, {}, samples);
+  const PairedSamples& one = samples.cases.front();
+  std::map<int, int> screened, confirmed;
+  for (const Pair& pair : one.screening) ++screened[pair.layout];
+  for (const Pair& pair : one.confirmation) ++confirmed[pair.layout];
+  EXPECT_GE(screened.size(), 8U);
+  EXPECT_GE(confirmed.size(), 8U);
+  for (const auto& [layout, pairs] : screened) {
+    EXPECT_EQ(pairs, 3);
+    EXPECT_FALSE(confirmed.contains(layout));
+  }
+  // With two layouts of the same difference, more pairs of them say nothing new.
+  std::vector<Pair> few, many;
+  for (int layout = 0; layout < 6; ++layout)
+    for (int i = 0; i < 40; ++i) {
+      const Pair pair = {1, std::exp(0.01 * layout), false, layout};
+      if (i < 2) few.push_back(pair);
+      many.push_back(pair);
+    }
+  EXPECT_EQ(log_ratio_of(few, {}), log_ratio_of(many, {}));
+}
+
+TEST(PairStatistics, TheThresholdIsTheLargestOfAllAndSaysWhich) {
   const TimeRules rules = {.relative = 0.01, .absolute_seconds = 0.001};
-  EXPECT_DOUBLE_EQ(threshold_of(rules, 1, 0), std::log1p(0.01));
-  EXPECT_DOUBLE_EQ(threshold_of(rules, 0.02, 0), std::log1p(0.05));
-  EXPECT_DOUBLE_EQ(threshold_of(rules, 1, 0.03), 0.03);
+  const auto threshold = [&](double base, const Precision& precision) { return threshold_of(rules, base, precision); };
+  EXPECT_DOUBLE_EQ(threshold(1, {}).value, std::log1p(0.01));
+  EXPECT_EQ(threshold(1, {}).reason, ThresholdReason::relative);
+  EXPECT_DOUBLE_EQ(threshold(0.02, {}).value, std::log1p(0.05));
+  EXPECT_EQ(threshold(0.02, {}).reason, ThresholdReason::absolute);
+  EXPECT_DOUBLE_EQ(threshold(1, {.noise_floor = 0.03}).value, 0.03);
+  EXPECT_EQ(threshold(1, {.noise_floor = 0.03}).reason, ThresholdReason::noise);
+  const Precision clock = {.timed_seconds = 1e-6, .clock_seconds = 1e-7};
+  EXPECT_DOUBLE_EQ(threshold(1, clock).value, std::log1p(0.2));
+  EXPECT_EQ(threshold(1, clock).reason, ThresholdReason::clock);
+  EXPECT_EQ(threshold(1, {.layout_deviation = 0.02}).reason, ThresholdReason::layout);
+  EXPECT_DOUBLE_EQ(threshold(1, {}).limit, std::log1p(0.01) + rules.largest_noise);
+}
+
+TEST(PairStatistics, TheFloorForBuildsGrowsWithTheirSpreadAndTheCases) {
+  EXPECT_NEAR(layout_floor(0.01, 1), 2.054 * std::sqrt(2.0) * 0.01, 1e-5);
+  EXPECT_NEAR(layout_floor(0.01, 10), 2.878 * std::sqrt(2.0) * 0.01, 1e-5);
+  EXPECT_EQ(layout_floor(0, 10), 0);
+}
+
+TEST(PairStatistics, AnIntervalOnBothSidesOfTheLimitIsOpen) {
+  const Threshold threshold = {0.01, 0.03};
+  const auto call = [&](double value, double scatter) {
+    std::vector<Pair> pairs;
+    for (int i = 0; i < 40; ++i) pairs.push_back({1, std::exp(value + (i % 2 == 0 ? scatter : -scatter))});
+    return look_at(pairs, threshold, bootstrap_for(0.95, 1)).call;
+  };
+  EXPECT_EQ(call(0, 0.01), Call::not_worse);
+  EXPECT_EQ(call(0.029, 0.01), Call::worse);
+  EXPECT_EQ(call(0.02, 0.1), Call::open);
+  EXPECT_EQ(call(0.028, 0.1), Call::open) << "narrow or not, a slowdown beyond the limit is not excluded";
+}
+
+TEST(PairStatistics, TheSmallestSlowdownFoundIsBeyondTheThresholdByTheNoise) {
+  const Look look = {{0, -0.01, 0.01}, {0.01, 0.03}};
+  EXPECT_NEAR(smallest_found(look, 0.95), 0.01 + 0.01 * (1 + 1.645 / 1.96), 1e-4);
+  EXPECT_GE(pairs_for_verdict({{0.02, -0.02, 0.06}, {0.01, 0.03}, Call::open}, 20, {}), 100);
 }
 
 TEST(PairStatistics, ConfirmationIsStricterWithMoreSuspects) {
