@@ -87,7 +87,8 @@ void add_notes(const gate::Recording& base, const gate::Recording& head, Verdict
 
 /// The commands of one call of hyperfine: their times were measured one after the other.
 GateResult compare_alone(const GateCommand& command, const gate::Rules& rules) {
-  GateResult result{{}, gate::read_recording(command.words[0])};
+  GateResult result;
+  result.head = gate::read_recording(command.words[0]);
   if (result.head.kind != gate::Source::hyperfine || result.head.cases.size() < 2)
     throw CLI::RequiredError("--against");
   gate::Recording base = result.head, head = result.head;
@@ -101,7 +102,8 @@ GateResult compare_alone(const GateCommand& command, const gate::Rules& rules) {
 }
 
 GateResult compare_recorded(const GateCommand& command, const gate::Rules& rules) {
-  GateResult result{{}, gate::read_recording(command.words[0])};
+  GateResult result;
+  result.head = gate::read_recording(command.words[0]);
   require_baseline(command);
   const bool is_there = std::filesystem::exists(command.against);
   const gate::Recording base =

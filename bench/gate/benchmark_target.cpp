@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "bench/gate/foreign_json.h"
 #include "bench/statistics.h"
@@ -13,7 +13,7 @@
 namespace ccdt::gate {
 namespace {
 
-constexpr double most_seconds_to_list = 60;
+constexpr double most_seconds_to_list = 10;
 
 double value_of(const Figure& figure) {
   if (!figure.samples.empty() && figure.text.empty()) return bench::median(figure.samples);
@@ -83,7 +83,7 @@ std::vector<std::string> list_benchmarks(const Command& command, const std::file
       baselines::run_program(listing, {.log = log, .limits = baselines::Limits{.seconds = most_seconds_to_list}});
   std::vector<std::string> names;
   if (ended.status != baselines::RunStatus::ok) return names;
-  std::istringstream lines(io::read_whole_file(log).bytes);
+  std::ifstream lines(log);
   for (std::string line; std::getline(lines, line);)
     if (!line.empty()) names.push_back(line);
   return names;

@@ -170,17 +170,19 @@ class Measurement {
   bool try_alone(TargetCases& cases, const Attempt& whole_base, const Attempt& whole_head) {
     if (!cases.target.list) return false;
     std::array<std::set<std::string>, 2> names;
-    for (const Side side : {Side::base, Side::head})
+    for (const auto& [whole, side] : {std::pair(&whole_base, Side::base), std::pair(&whole_head, Side::head)}) {
+      for (const auto& [name, measured] : whole->measured) names[side == Side::head].insert(name);
       for (const std::string& name : cases.target.list(side)) names[side == Side::head].insert(name);
-    for (const auto& [whole, side] : {std::pair(&whole_base, 0), std::pair(&whole_head, 1)})
-      for (const auto& [name, measured] : whole->measured) names[static_cast<std::size_t>(side)].insert(name);
+    }
     std::set<std::string> either = names[0];
     either.insert(names[1].begin(), names[1].end());
     if (either.empty()) return false;
     for (const std::string& name : either) {
-      std::array<Attempt, 2> alone;
+      std::array<Attempt, 2> alone = {whole_base, whole_head};
       for (const Side side : {Side::base, Side::head})
-        if (names[side == Side::head].contains(name)) alone[side == Side::head] = attempt(cases, side, {name});
+        if (!names[side == Side::head].empty())
+          alone[side == Side::head] =
+              names[side == Side::head].contains(name) ? attempt(cases, side, {name}) : Attempt();
       add(cases, name, alone[0], alone[1]);
     }
     return true;

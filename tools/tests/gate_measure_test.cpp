@@ -1,3 +1,5 @@
+#include <map>
+
 #include "tools/tests/gate_recordings.h"
 
 namespace ccdt {
@@ -69,10 +71,15 @@ class TimedGate : public Gate {
   }
 
   /// A shell script that reports a benchmark of this many milliseconds.
-  static std::string benchmark_of(const std::string& milliseconds) {
-    return "for a; do case $a in --benchmark_out=*) echo '{\"benchmarks\": [{\"name\": \"BM_x\", \"run_type\": "
-           "\"iteration\", \"cpu_time\": 1, \"time_unit\": \"ms\", \"real_time\": '" +
-           milliseconds + "'}]}' > \"${a#*=}\";; esac; done";
+  static std::string benchmark_of(const std::string& milliseconds) { return benchmarks_of({{"BM_x", milliseconds}}); }
+
+  /// The same with several benchmarks.
+  static std::string benchmarks_of(const std::map<std::string, std::string>& milliseconds) {
+    std::string runs;
+    for (const auto& [name, time] : milliseconds)
+      runs += (runs.empty() ? "" : ",") + std::string("{\"name\": \"") + name +
+              "\", \"run_type\": \"iteration\", \"iterations\": 1000000, \"cpu_time\": 1, \"time_unit\": \"ms\", \"real_time\": '" + time + "'}";
+    return "for a; do case $a in --benchmark_out=*) echo '{\"benchmarks\": [" + runs + "]}' > \"${a#*=}\";; esac; done";
   }
 
   void write_program(const std::string& name, const std::string& what) const {
@@ -109,6 +116,12 @@ TEST_F(TimedGate, AFasterProgramPassesAndIsReported) {
 TEST_F(TimedGate, AProgramThatFailsIsWorseUnlessItIsTheBase) {
   EXPECT_EQ(gate("quick", "failing"), 1);
   EXPECT_EQ(gate("failing", "quick"), 3);
+  for (int seed = 1; seed <= 4; ++seed) {
+    const Outcome both =
+        run("gate --base failing --head failing -o out --seed " + std::to_string(seed) + " -- --benchmark_filter=.");
+    EXPECT_EQ(both.exit_code, 3) << "seed " << seed;
+    EXPECT_NE(both.out.find("exit code 4"), std::string::npos) << both.out;
+  }
 }
 
 TEST_F(TimedGate, ACalibrationSaysHowManyPairsItNeeds) {
@@ -119,6 +132,91 @@ TEST_F(TimedGate, ACalibrationSaysHowManyPairsItNeeds) {
   EXPECT_FALSE(std::filesystem::exists(work() / "out/calibration.json"));
   EXPECT_EQ(run(options + "--pairs 20 -- --benchmark_filter=.").exit_code, 0);
   EXPECT_EQ(Json::parse(text_of(work() / "out/calibration.json")).at("schema"), "ccdt.calibration/1");
+}
+
+TEST_F(TimedGate, TenTimesSlowerNeverPassesHoweverShortAnIteration) {
+  for (const std::string milliseconds : {"0.000001", "0.00469", "0.21", "20", "10000"}) {
+    write_program("base", benchmark_of(milliseconds));
+    write_program("head", benchmark_of(milliseconds + "0"));
+    if (milliseconds.find('.') != std::string::npos)
+      write_program("head", benchmark_of(std::to_string(std::stod(milliseconds) * 10)));
+    EXPECT_EQ(gate("base", "head"), 1) << milliseconds << " ms";
+  }
+  write_program("base", benchmark_of("0.21"));
+  write_program("head", benchmark_of("0.2625"));
+  EXPECT_EQ(gate("base", "head"), 1);
+}
+
+TEST_F(TimedGate, LostAndNewBenchmarksAreNamed) {
+  write_program("base", benchmarks_of({{"BM_same", "10"}, {"BM_old", "10"}}));
+  write_program("head", benchmarks_of({{"BM_same", "10"}, {"BM_new", "10"}}));
+  EXPECT_EQ(gate("base", "head"), 1);
+  EXPECT_EQ(verdict().at("figures").at(0).at("case"), "BM_old");
+  const Outcome outcome = run("gate --base base --head head -o out -- --benchmark_filter=.");
+  for (const char* name : {"BM_same", "BM_old", "BM_new"}) EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
+  write("rules.json", R"({"schema": "ccdt.rules/1", "may_be_missing": ["BM_old"]})");
+  EXPECT_EQ(gate("base", "head"), 0);
+  EXPECT_EQ(gate("head", "head"), 0);
+  write_program("renamed", benchmarks_of({{"BM_other", "10"}}));
+  EXPECT_EQ(gate("head", "renamed"), 1);
+}
+
+TEST_F(TimedGate, TheHeadThatHangsIsWorse) {
+  write_program("hangs", "sleep 1000");
+  const Outcome outcome = run("gate --base quick --head hangs --time-limit 1 -o out -- --benchmark_filter=.");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("limit of 1 s"), std::string::npos) << outcome.out;
+}
+
+TEST_F(TimedGate, CommandsAreRunInTurns) {
+  write_program("tool", "read x < \"$1\"; sleep $x");
+  write("short", "0.01\n");
+  write("long", "0.1\n");
+  write("rules.json", R"({"schema": "ccdt.rules/1", "time": {"at_least": 6, "at_most": 12}})");
+  const std::string options = " --rules rules.json --seed 1 -o out";
+  EXPECT_EQ(run("gate --base './tool short' --head './tool long'" + options).exit_code, 1);
+  EXPECT_EQ(verdict().at("figures").at(0).at("name"), "wall");
+  EXPECT_EQ(run("gate --base 'cat short | ./tool short' --head './tool long'" + options).exit_code, 1);
+  EXPECT_EQ(run("gate --base './no-such-tool' --head './tool long'" + options).exit_code, 3);
+  EXPECT_EQ(run("gate --base ./tool --head ./tool" + options + " --layers exact -- short").exit_code, 3)
+      << "there is nothing exact about it";
+}
+
+TEST_F(TimedGate, ProgramsAreRebuiltWithSeedsOfTheirOwn) {
+  // The command copies the program and notes what it was asked.
+  write_program("again",
+                "echo \"$CCDT_GATE_SIDE $CCDT_GATE_SEED\" >> builds; cp \"$CCDT_GATE_PROGRAM\" \"$CCDT_GATE_OUTPUT\"");
+  const std::string call = "gate --base quick --head slow --seed 1 -o out --rebuild ./again --layouts 4 ";
+  EXPECT_EQ(run(call + "--rules rules.json -- --benchmark_filter=.").exit_code, 1);
+  const std::string builds = text_of(work() / "builds");
+  for (const char* build : {"base 1\n", "head 1\n", "base 4\n", "head 4\n"})
+    EXPECT_NE(builds.find(build), std::string::npos) << build;
+  EXPECT_EQ(builds.find("base 1\n"), builds.rfind("base 1\n")) << "each is built once";
+  const Json samples = Json::parse(text_of(work() / "out/samples.json"));
+  EXPECT_TRUE(samples.at("rebuilt"));
+  EXPECT_EQ(run("gate --base quick --head slow -o out --rebuild 'exit 3' -- --benchmark_filter=.").exit_code, 3);
+  EXPECT_EQ(run("gate --base quick --head slow -o out --rebuild true -- --benchmark_filter=.").exit_code, 3);
+}
+
+TEST_F(TimedGate, AStoppedGateKeepsItsTimesAndSaysHowToGoOn) {
+  write_program("sleeper", "sleep 0.05\n" + benchmark_of("10"));
+  const std::string call = " gate --base sleeper --head sleeper -o out";
+  const std::string program = "'" + std::string(CCDT_PROGRAM) + "'";
+  const std::string stopped = "timeout --signal=INT 1 " + program + call + " -- --benchmark_filter=. 2> err";
+  const int status = std::system(("cd '" + work().string() + "' && " + stopped).c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_NE(text_of(work() / "err").find("--resume"), std::string::npos);
+  const Json kept = Json::parse(text_of(work() / "out/samples.json"));
+  const std::size_t pairs = kept.at("cases").at(0).at("screening").size();
+  EXPECT_GT(pairs, 0u);
+  EXPECT_FALSE(kept.at("finished"));
+  EXPECT_EQ(run("gate --base sleeper --head sleeper -o out --resume -- --benchmark_filter=.").exit_code, 0);
+  const Json after = Json::parse(text_of(work() / "out/samples.json"));
+  EXPECT_TRUE(after.at("finished"));
+  EXPECT_EQ(after.at("seed"), kept.at("seed"));
+  EXPECT_EQ(after.at("cases").at(0).at("screening").at(0), kept.at("cases").at(0).at("screening").at(0));
+  EXPECT_EQ(run("gate --base quick --head sleeper -o out --resume -- --benchmark_filter=.").exit_code, 3)
+      << "those are the times of other programs";
 }
 
 }  // namespace
