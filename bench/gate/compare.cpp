@@ -240,6 +240,7 @@ JudgedFigure judge_instructions(const Figure& base, const Figure& head, const Ca
   const double change = *judged.head - *judged.base;
   const InstructionRules& limits = rules.instructions;
   judged.changed = std::abs(change) > limits.absolute && std::abs(change) > limits.relative * *judged.base;
+  if (*judged.base > 0) judged.smallest_found = std::max(limits.relative, limits.absolute / *judged.base);
   if (!judged.changed) return judged;
   if (change < 0) {
     judged.words = "better";
@@ -340,10 +341,10 @@ std::vector<JudgedFigure> compare_instructions(const Recording& base, const Reco
       if (figure.layer != Layer::instructions || before == nullptr ||
           !is_gated(rules, Layer::instructions, one.name, figure.name))
         continue;
-      all.push_back(difference.empty() ? judge_instructions(*before, figure, one, rules) : start(*before, figure, one));
-      if (difference.empty()) continue;
-      all.back().verdict = Judgment::incomparable;
-      all.back().words = difference;
+      all.push_back(difference.empty() ? judge_instructions(*before, figure, one, rules)
+                                       : not_gated(start(*before, figure, one), difference));
+      // Who asks for this layer must get a verdict on it.
+      if (!difference.empty()) all.back().is_gated = rules.layers_are_chosen;
     }
   }
   return all;
