@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string_view>
+
+namespace kernels {
+
+/// The benchmark that does more work, and the share of it: a multiple of 0.05. `layouts.py` writes other values into
+/// its copies.
+inline constexpr std::string_view slow_kernel = "tokenizer";
+inline constexpr double slowdown = 0;
+
+}  // namespace kernels
