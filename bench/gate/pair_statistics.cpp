@@ -49,7 +49,7 @@ Threshold threshold_of(const TimeRules& rules, double base_seconds, const Precis
       {precision.noise_floor, ThresholdReason::noise},
       {layout_floor(precision.layout_deviation, precision.cases), ThresholdReason::layout}};
   const auto& [value, reason] = *std::ranges::max_element(all, {}, &std::pair<double, ThresholdReason>::first);
-  return {value, value + rules.largest_noise, reason};
+  return {value, std::log1p(std::expm1(value) + rules.largest_noise), reason};
 }
 
 bool is_blunt(const Threshold& threshold) {

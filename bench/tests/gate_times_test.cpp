@@ -243,7 +243,7 @@ TEST(TimeLayer, PassingExcludesASlowdownBeyondTheLimit) {
   Rules rules;
   int passed = 0;
   constexpr int gates = 300;
-  const double at_limit = std::exp(std::log1p(rules.time.relative) + rules.time.largest_noise);
+  const double at_limit = 1 + rules.time.relative + rules.time.largest_noise;
   for (std::uint64_t seed = 0; seed < gates; ++seed)
     passed += gate({target("a", at_limit, 1000 + seed, 0.04)}, seed, rules).verdict() == Judgment::passed;
   EXPECT_LE(bench::share_of(passed, gates).low, 0.05);
@@ -498,7 +498,7 @@ TEST(PairStatistics, TheThresholdIsTheLargestOfAllAndSaysWhich) {
   EXPECT_DOUBLE_EQ(threshold(1, clock).value, std::log1p(0.2));
   EXPECT_EQ(threshold(1, clock).reason, ThresholdReason::clock);
   EXPECT_EQ(threshold(1, {.layout_deviation = 0.02}).reason, ThresholdReason::layout);
-  EXPECT_DOUBLE_EQ(threshold(1, {}).limit, std::log1p(0.01) + rules.largest_noise);
+  EXPECT_DOUBLE_EQ(threshold(1, {}).limit, std::log1p(0.03));
 }
 
 TEST(PairStatistics, TheFloorForBuildsGrowsWithTheirSpreadAndTheCases) {
