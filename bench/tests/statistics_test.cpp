@@ -50,6 +50,26 @@ TEST(Statistics, SameSamplesAlwaysGiveTheSameInterval) {
   EXPECT_EQ(a.high, b.high);
 }
 
+TEST(Statistics, AnotherSeedDrawsOtherSamples) {
+  const std::vector<double> samples = {3, 1, 4, 1, 5, 9, 2, 6};
+  EXPECT_NE(bench::trimmed_mean_estimate(samples, 0, {.resamples = 10, .seed = 1}),
+            bench::trimmed_mean_estimate(samples, 0, {.resamples = 10, .seed = 2}));
+}
+
+TEST(Statistics, OneResampleGivesAnIntervalOfNoWidth) {
+  const bench::Estimate estimate = bench::median_estimate(std::vector{3.0, 1.0, 4.0}, {.resamples = 1});
+  EXPECT_EQ(estimate.low, estimate.high);
+}
+
+TEST(Statistics, EverySampleIsDrawn) {
+  // The median of three draws is the one that differs with a probability of 7/27.
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<double> samples(3, 1.0);
+    samples[i] = 9;
+    EXPECT_EQ(bench::median_estimate(samples), (bench::Estimate{1, 1, 9})) << i;
+  }
+}
+
 TEST(Statistics, NinetyFivePercentIntervalCoversTheTrueMedianAboutThatOften) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal(10, 1);
@@ -77,6 +97,18 @@ TEST(Statistics, RatioOfMediansOfScaledSamplesIsTheScale) {
   EXPECT_LT(ratio.high, 16 * 1.05);
 }
 
+TEST(Statistics, BothSamplesOfARatioAreDrawn) {
+  const std::vector<double> equal = {2, 2, 2}, different = {1, 2, 4};
+  EXPECT_EQ(bench::ratio_of_medians(different, equal), (bench::Estimate{1, 0.5, 2}));
+  EXPECT_EQ(bench::ratio_of_medians(equal, different), (bench::Estimate{1, 0.5, 2}));
+}
+
+TEST(Statistics, TheSpreadIsThatOfTheWiderSide) {
+  EXPECT_DOUBLE_EQ(bench::relative_spread({10, 9, 12}), 0.2);
+  EXPECT_DOUBLE_EQ(bench::relative_spread({10, 7, 11}), 0.3);
+  EXPECT_EQ(bench::relative_spread({0, -1, 1}), 0);
+}
+
 /// Student's t with two degrees of freedom: no variance.
 double heavy_tailed(std::mt19937_64& random) {
   return std::student_t_distribution<double>(2)(random);
@@ -86,7 +118,16 @@ TEST(Statistics, TrimmedMeanDropsItsShareAtEachEnd) {
   // scipy.stats.trim_mean([1, 2, 3, 4, 5, 6, 7, 8, 9, 100], 0.2) is 5.5
   EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{100, 2, 3, 4, 5, 6, 7, 8, 9, 1}, 0.2), 5.5);
   EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{1, 2, 6}, 0), 3);
-  EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{1, 2, 6, 7}, 0.2), 4);
+  EXPECT_DOUBLE_EQ(bench::trimmed_mean(std::vector<double>{1, 2, 6, 11}, 0.2), 5);
+}
+
+TEST(Statistics, DeviationsOfFewSamples) {
+  // R: sd(c(2, 4, 4, 4, 5, 5, 7, 9)), mad(c(2, 4, 4, 4, 5, 5, 7, 9))
+  const std::vector<double> samples = {2, 4, 4, 4, 5, 5, 7, 9};
+  EXPECT_NEAR(bench::standard_deviation(samples), 2.1380899, 1e-7);
+  EXPECT_NEAR(bench::robust_deviation(samples), 0.7413011, 1e-7);
+  EXPECT_EQ(bench::standard_deviation(std::vector{3.0}), 0);
+  EXPECT_EQ(bench::robust_deviation(std::vector{3.0}), 0);
 }
 
 TEST(Statistics, DeviationsOfANormalSampleAreThatOfItsDistribution) {
@@ -109,6 +150,13 @@ TEST(Statistics, AutocorrelationOfAnAutoregressiveSeriesIsItsCoefficient) {
   double last = 0;
   for (double& sample : samples) sample = last = 0.6 * last + normal(random);
   EXPECT_NEAR(bench::autocorrelation(samples), 0.6, 0.05);
+}
+
+TEST(Statistics, AutocorrelationOfFewSamples) {
+  // R: acf(1:4)$acf[2]
+  EXPECT_DOUBLE_EQ(bench::autocorrelation(std::vector{1.0, 2.0, 3.0, 4.0}), 0.25);
+  EXPECT_EQ(bench::autocorrelation(std::vector{1.0, 2.0}), 0);
+  EXPECT_EQ(bench::autocorrelation(std::vector{2.5, 2.5, 2.5, 2.5}), 0);
 }
 
 TEST(Statistics, IntervalOfTheTrimmedMeanCoversTheCenterOfHeavyTailsAboutAsOftenAsItSays) {
@@ -184,12 +232,36 @@ TEST(Regression, PowerLawsHaveTheirExponentAndAnIntervalOfNoWidth) {
   }
 }
 
+TEST(Regression, ALineThroughEqualValuesExplainsThem) {
+  const bench::LineFit fit = bench::fit_line(std::vector{1.0, 2.0, 3.0}, std::vector{5.0, 5.0, 5.0});
+  EXPECT_EQ(fit.slope, (bench::Estimate{0, 0, 0}));
+  EXPECT_EQ(fit.intercept, 5);
+  EXPECT_EQ(fit.r_squared, 1);
+}
+
 TEST(Regression, MoreConfidenceNeedsAWiderInterval) {
   const std::vector<double> x = {1, 2, 3, 4}, y = {1, 2.2, 2.9, 4.1};
   const bench::LineFit narrow = bench::fit_line(x, y, 0.5), wide = bench::fit_line(x, y, 0.99);
   EXPECT_GT(narrow.slope.low, wide.slope.low);
   EXPECT_LT(narrow.slope.high, wide.slope.high);
   EXPECT_EQ(narrow.slope.value, wide.slope.value);
+}
+
+TEST(Bounds, AnIntervalThatEndsAtTheBoundHolds) {
+  EXPECT_EQ(bench::is_at_most({2, 1, 3}, 3), bench::BoundTest::holds);
+  EXPECT_EQ(bench::is_at_least({2, 1, 3}, 1), bench::BoundTest::holds);
+}
+
+TEST(Bounds, ABoundInsideIsUndecided) {
+  for (const double bound : {1.0, 1.5, 2.5})
+    EXPECT_EQ(bench::is_at_most({2, 1, 3}, bound), bench::BoundTest::undecided);
+  for (const double bound : {1.5, 2.5, 3.0})
+    EXPECT_EQ(bench::is_at_least({2, 1, 3}, bound), bench::BoundTest::undecided);
+}
+
+TEST(Bounds, AnIntervalOnTheWrongSideFails) {
+  EXPECT_EQ(bench::is_at_most({2, 1, 3}, 0.9), bench::BoundTest::fails);
+  EXPECT_EQ(bench::is_at_least({2, 1, 3}, 3.1), bench::BoundTest::fails);
 }
 
 }  // namespace
