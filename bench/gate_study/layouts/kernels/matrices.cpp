@@ -56,19 +56,32 @@ struct SparseMatrix {
   }
 }
 
-void sparse(benchmark::State& state) {
-  constexpr int rows = 500, columns = 1000;
-  Random random(9);
+/// Five points of a grid: each place, and its neighbors.
+SparseMatrix grid_matrix(int width, int height) {
   SparseMatrix m;
   m.row_begins.push_back(0);
-  for (int row = 0; row < rows; ++row) {
-    for (int i = 3 + random.below(9); i > 0; --i) {
-      m.columns.push_back(random.below(columns));
-      m.values.push_back(random.below(1000));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto add = [&](int dx, int dy) {
+        if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) return;
+        m.columns.push_back((y + dy) * width + x + dx);
+        m.values.push_back(dx == 0 && dy == 0 ? 4 : -1);
+      };
+      add(0, -1);
+      add(-1, 0);
+      add(0, 0);
+      add(1, 0);
+      add(0, 1);
+      m.row_begins.push_back(static_cast<int>(m.columns.size()));
     }
-    m.row_begins.push_back(static_cast<int>(m.columns.size()));
-  }
-  std::vector<double> vector(columns), result(rows);
+  return m;
+}
+
+void sparse(benchmark::State& state) {
+  constexpr int width = 30, height = 20;
+  const SparseMatrix m = grid_matrix(width, height);
+  Random random(9);
+  std::vector<double> vector(width * height), result(vector.size());
   for (double& value : vector) value = random.below(1000);
   const int passes = passes_of("sparse");
   for (auto _ : state)
