@@ -131,10 +131,9 @@ std::string terminal_line(const JudgedFigure& figure) {
 /// Is it one of the many figures of a report of `ccdt mesh`, which are counted in one row?
 bool is_one_of_many(const JudgedFigure& figure) {
   if (gate::is_about_the_end(figure)) return figure.verdict == Judgment::passed && !figure.changed;
-  return figure.layer != gate::Layer::time &&
-         !figure.name.starts_with(gate::counter_prefix) && figure.name != "instructions.total" &&
-         figure.name != "instructions.system_calls" && figure.name != "instructions.allocations" &&
-         figure.name != "instructions.mesh";
+  return figure.layer != gate::Layer::time && !figure.name.starts_with(gate::counter_prefix) &&
+         figure.name != "instructions.total" && figure.name != "instructions.system_calls" &&
+         figure.name != "instructions.allocations" && figure.name != "instructions.mesh";
 }
 
 std::string judgment_text(const JudgedFigure& figure) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double most_seconds_to_list = 10;
 
-double value_of(const Figure& figure) {
+double number_of(const Figure& figure) {
   if (!figure.samples.empty() && figure.text.empty()) return bench::median(figure.samples);
   if (figure.text == "Infinity") return std::numeric_limits<double>::infinity();
   if (figure.text == "-Infinity") return -std::numeric_limits<double>::infinity();
@@ -30,7 +30,7 @@ MeasuredCase measured_case(const CaseFigures& one, const std::string& time) {
   measured.timed_seconds = one.timed_seconds;
   for (const Figure& figure : one.figures)
     if (figure.name.starts_with(counter_prefix))
-      measured.counters[figure.name.substr(std::string(counter_prefix).size())] = value_of(figure);
+      measured.counters[figure.name.substr(std::string(counter_prefix).size())] = number_of(figure);
   return measured;
 }
 

@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "bench/gate/paired_samples.h"
 #include "bench/results/numbers.h"
 
 namespace ccdt::gate {
 namespace {
 
 constexpr double lost_badness = std::numeric_limits<double>::max();  ///< before all figures with a size
-constexpr double trimmed = 0.2;                                      ///< share at each end of the ratios of a counter
 
 bool is_whole(double value) {
   return value == std::floor(value);
@@ -118,7 +118,7 @@ void judge_by_pairs(const Figure& base, const Figure& head, const ExactRules& ru
     judged.words = "is not positive in all runs, so there are no ratios";
     return;
   }
-  const bench::Estimate loss = bench::trimmed_mean_estimate(losses, trimmed);
+  const bench::Estimate loss = bench::trimmed_mean_estimate(losses, trimmed_share);
   const bool is_turned = sign < 0;
   judged.ratio = std::exp(sign * loss.value);
   judged.interval = bench::Estimate{*judged.ratio, std::exp(is_turned ? -loss.high : loss.low),

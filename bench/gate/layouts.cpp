@@ -21,7 +21,7 @@ std::function<fs::path(Side, int layout)> layout_builder(const std::string& comm
     if (layout == 0) return program;
     // Both names have the same length, so that the stack begins at the same place.
     const fs::path home = fs::absolute(folder) / (std::string(name_of(side)) + "-" + std::to_string(layout));
-    const fs::path built = home / fs::path(program).filename();
+    fs::path built = home / fs::path(program).filename();
     if (is_program(built)) return built;
     fs::create_directories(home);
     const fs::path log = home / "build.log";

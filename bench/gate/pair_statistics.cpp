@@ -9,7 +9,6 @@
 namespace ccdt::gate {
 namespace {
 
-constexpr double trimmed = 0.2;            ///< share at each end (Wilcox 2017, section 3.3)
 constexpr double clock_steps = 2;          ///< a time is the difference of two readings
 constexpr double bluntest = 0.5;           ///< largest slowdown that a threshold may let pass
 constexpr double layout_alarms = 0.02;     ///< share of gates with a false alarm because code lies elsewhere
@@ -58,8 +57,8 @@ bool is_blunt(const Threshold& threshold) {
 
 bench::Estimate log_ratio_of(std::span<const Pair> pairs, const bench::Bootstrap& bootstrap) {
   const std::vector<double> layouts = by_layout(pairs);
-  if (layouts.size() >= fewest_layouts) return bench::trimmed_t_estimate(layouts, trimmed, bootstrap.confidence);
-  return bench::trimmed_mean_estimate(log_ratios(pairs), trimmed, bootstrap);
+  if (layouts.size() >= fewest_layouts) return bench::trimmed_t_estimate(layouts, trimmed_share, bootstrap.confidence);
+  return bench::trimmed_mean_estimate(log_ratios(pairs), trimmed_share, bootstrap);
 }
 
 Look look_at(std::span<const Pair> pairs, const Threshold& threshold, const bench::Bootstrap& bootstrap) {

@@ -12,6 +12,9 @@
 
 namespace ccdt::gate {
 
+/// What is dropped at each end of ratios before their mean (Wilcox 2017, section 3.3).
+inline constexpr double trimmed_share = 0.2;
+
 /// Which of the two programs.
 enum class Side { base, head };
 

@@ -9,14 +9,15 @@ class BenchmarkGate : public Gate {
   BenchmarkGate() {
     std::filesystem::create_symlink(GATED_BENCHMARK, work() / "bench");
     // Whatever the load of this machine is: what is tested here does not hang on it.
-    write("rules.json",
-          R"({"schema": "ccdt.rules/1", "time": {"relative": 0.3, "largest_noise": 0.5, "at_least": 5, "at_most": 20}})");
+    write(
+        "rules.json",
+        R"({"schema": "ccdt.rules/1", "time": {"relative": 0.3, "largest_noise": 0.5, "at_least": 5, "at_most": 20}})");
   }
 
   /// Base and head have these faults.
   Outcome gate(const std::string& base, const std::string& head, const std::string& layers = "exact,time") const {
-    return run("gate --base 'env GATED=" + base + " ./bench' --head 'env GATED=" + head + " ./bench' --layers " + layers +
-               " --rules rules.json -o out -- --benchmark_min_time=0.01");
+    return run("gate --base 'env GATED=" + base + " ./bench' --head 'env GATED=" + head + " ./bench' --layers " +
+               layers + " --rules rules.json -o out -- --benchmark_min_time=0.01");
   }
 
   Json of_case(const std::string& name, const std::string& figure) const {
@@ -83,7 +84,8 @@ TEST_F(BenchmarkGate, WorkThatDependsOnTheEnvironmentIsUndecided) {
 }
 
 TEST_F(BenchmarkGate, ACommandIsCountedAsAWholeProcess) {
-  EXPECT_EQ(run("gate --base 'cat rules.json' --head 'cat rules.json rules.json' --layers instructions -o out").exit_code, 1);
+  EXPECT_EQ(
+      run("gate --base 'cat rules.json' --head 'cat rules.json rules.json' --layers instructions -o out").exit_code, 1);
   EXPECT_EQ(verdict().at("figures").at(0).at("case"), "cat rules.json rules.json");
   EXPECT_EQ(run("gate --base 'cat rules.json' --head 'cat rules.json' --layers instructions -o out").exit_code, 0);
 }

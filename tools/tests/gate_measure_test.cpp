@@ -78,7 +78,9 @@ class TimedGate : public Gate {
     std::string runs;
     for (const auto& [name, time] : milliseconds)
       runs += (runs.empty() ? "" : ",") + std::string("{\"name\": \"") + name +
-              "\", \"run_type\": \"iteration\", \"iterations\": 1000000, \"cpu_time\": 1, \"time_unit\": \"ms\", \"real_time\": '" + time + "'}";
+              "\", \"run_type\": \"iteration\", \"iterations\": 1000000, \"cpu_time\": 1, \"time_unit\": \"ms\", "
+              "\"real_time\": '" +
+              time + "'}";
     return "for a; do case $a in --benchmark_out=*) echo '{\"benchmarks\": [" + runs + "]}' > \"${a#*=}\";; esac; done";
   }
 

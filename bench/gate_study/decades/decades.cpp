@@ -1,4 +1,5 @@
-// Loops of 10 ns to 10 s per iteration, on Google Benchmark. The variable SLOWER is how many times as much work each does.
+// Loops of 10 ns to 10 s per iteration, on Google Benchmark. The variable SLOWER is how many times as much work each
+// does.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
