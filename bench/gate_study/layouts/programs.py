@@ -6,10 +6,11 @@ import re
 import shlex
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-RELINK = HERE / "relink"
+RELINK = [sys.executable, HERE / "relink"]
 SOURCES = Path("bench/gate_study/layouts/kernels")  # in the repository
 FLAGS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffunction-sections", "-fdata-sections"]
 LINK_WORDS = ["-lbenchmark_main", "-lbenchmark", "-lpthread"]
@@ -30,7 +31,7 @@ def link(program, output, seed, side):
         return
     output.parent.mkdir(parents=True, exist_ok=True)
     new = output.with_name("new")
-    run(RELINK, env={**os.environ, "CCDT_GATE_SIDE": side, "CCDT_GATE_SEED": str(seed),
+    run(*RELINK, env={**os.environ, "CCDT_GATE_SIDE": side, "CCDT_GATE_SEED": str(seed),
                      "CCDT_GATE_PROGRAM": str(program), "CCDT_GATE_OUTPUT": str(new)})
     new.rename(output)
 

@@ -42,7 +42,7 @@ def command_of(program, arguments, kind, gate, base, head):
     command = [arguments.ccdt.resolve(), "gate", "--base", base, "--head", head, "--layers", "time", "-o", gate / "out",
                *program.gate_inputs(), *arguments.gate_options]
     if kind["layouts"] == "rebuilt":
-        command += ["--rebuild", shlex.quote(str(RELINK)), *arguments.rebuild_options]
+        command += ["--rebuild", shlex.join(map(str, RELINK)), *arguments.rebuild_options]
     if kind["layouts"] == "bare":
         (gate / "rules.json").write_text(json.dumps({"schema": "ccdt.rules/1", "time": {"layout_deviation": 0}}))
         command += ["--rules", gate / "rules.json"]
