@@ -22,7 +22,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }  // namespace
 
 std::string words_of(const gate::TimeProgress& progress, double seconds) {
-  std::string text = std::to_string(progress.decided) + " of " + std::to_string(progress.cases) + " cases decided";
+  std::string text = std::to_string(progress.decided) + " of " + std::to_string(progress.cases) + " cases";
   if (progress.pairs == 0) return text;
   const double left = static_cast<double>(progress.expected - progress.pairs) / static_cast<double>(progress.pairs);
   return text + ", about " + duration(left * seconds) + " left";
@@ -31,7 +31,7 @@ std::string words_of(const gate::TimeProgress& progress, double seconds) {
 GateProgress::GateProgress() : draw_(bar_.progress()), begin_(Clock::now()), last_(begin_) {}
 
 void GateProgress::show(const gate::TimeProgress& progress) {
-  show_line("pairs of runs, " + words_of(progress, seconds_since(begin_)), progress.pairs, progress.expected);
+  show_line("decided " + words_of(progress, seconds_since(begin_)), progress.pairs, progress.expected);
 }
 
 Progress GateProgress::counted() {
@@ -43,7 +43,7 @@ void GateProgress::show_line(std::string_view stage, std::uint64_t done, std::ui
   const auto now = Clock::now();
   if (now - last_ < pause_of_lines) return;
   last_ = now;
-  std::fprintf(stderr, "ccdt gate: %.*s: %llu of about %llu after %s\n", static_cast<int>(stage.size()), stage.data(),
+  std::fprintf(stderr, "ccdt gate: %.*s (%llu of about %llu after %s)\n", static_cast<int>(stage.size()), stage.data(),
                static_cast<unsigned long long>(done), static_cast<unsigned long long>(total),
                duration(seconds_since(begin_)).c_str());
   std::fflush(stderr);

@@ -29,7 +29,7 @@ class GateProgress {
   Clock::time_point begin_, last_;
 };
 
-/// "2 of 10 cases decided, about 40 s left"
+/// "2 of 10 cases, about 40 s left"
 std::string words_of(const gate::TimeProgress& progress, double seconds);
 
 }  // namespace ccdt::tools

@@ -76,7 +76,7 @@ JudgedFigure judge_look(const PairedSamples& one, std::span<const Pair> pairs, c
   judged.ratio = std::exp(value);
   judged.interval = bench::Estimate{std::exp(value), std::exp(low), std::exp(high)};
   judged.limit = std::expm1(look.threshold.limit);
-  judged.smallest_found = std::expm1(smallest_found(look, confidence));
+  judged.smallest_found = std::expm1(smallest_found(look, pairs.size(), confidence, rules));
   judged.badness = value;
   judged.command = one.head_command;
   if (look.call != Call::open) return judged;

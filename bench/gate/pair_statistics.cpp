@@ -95,9 +95,11 @@ double wanted_half_width(const Look& screening, const TimeRules& rules) {
   return std::clamp(half_way, rules.largest_noise / 2, rules.largest_noise);
 }
 
-double smallest_found(const Look& look, double confidence) {
+double smallest_found(const Look& look, std::size_t pairs, double confidence, const TimeRules& rules) {
   const double in_errors = bench::normal_tail((1 - confidence) / 2), power = bench::normal_tail(1 - wanted_power);
-  return look.threshold.value + half_width(look.log_ratio) * (1 + power / in_errors);
+  const double narrowed =
+      std::sqrt(static_cast<double>(pairs) / std::max<double>(rules.at_most, static_cast<double>(pairs)));
+  return look.threshold.value + half_width(look.log_ratio) * narrowed * (1 + power / in_errors);
 }
 
 int pairs_for_verdict(const Look& look, int pairs, const TimeRules& rules) {

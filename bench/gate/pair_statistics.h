@@ -95,8 +95,12 @@ double confirmation_confidence(const TimeRules& rules, int suspects);
 /// confirmation's own estimate: repeated looks at that would bias it toward the result to confirm.
 double wanted_half_width(const Look& screening, const TimeRules& rules);
 
-/// The smallest slowdown, as a log ratio, that an interval of this width would have found with 95% probability.
-double smallest_found(const Look& look, double confidence);
+/// The smallest slowdown, as a log ratio, that a gate with this noise finds with 95% probability: a slowdown keeps a case
+/// open, so there would have been `at_most` pairs.
+///
+/// \param pairs       of the look
+/// \param confidence  of its interval
+double smallest_found(const Look& look, std::size_t pairs, double confidence, const TimeRules& rules);
 
 /// About how many pairs a verdict would take that this look does not give.
 int pairs_for_verdict(const Look& look, int pairs, const TimeRules& rules);
