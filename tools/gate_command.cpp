@@ -302,7 +302,7 @@ void add_measuring_options(CLI::App& verb, GateCommand& command) {
       "command that builds the program of $CCDT_GATE_SIDE with the layout of $CCDT_GATE_SEED, and writes it "
       "to $CCDT_GATE_OUTPUT");
   verb.add_option("--layouts", command.layouts,
-                  "number of builds of each program at the first look; default: that of the rules, 8")
+                  "number of builds of each program at the first look; default: that of the rules, 20")
       ->check(whole_number(4, 1000));
   verb.add_option("--time-limit", command.most_seconds,
                   "seconds of one run; default: 20 times what the base took at first, and at least 10 s")

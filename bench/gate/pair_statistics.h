@@ -45,7 +45,7 @@ struct Look {
 
 /// Standard deviations of log time between builds of one source, as measured (docs/gates.md): of loops of
 /// microseconds, and of whole runs of a program.
-inline constexpr double builds_of_loops = 0.015, builds_of_programs = 0.005;
+inline constexpr double builds_of_loops = 0.025, builds_of_programs = 0.01;
 
 /// That of a figure: of a benchmark, or of a process.
 double usual_layout_deviation(const std::string& figure);

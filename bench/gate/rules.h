@@ -51,7 +51,7 @@ struct TimeRules {
   double confidence = 0.95;
   double largest_noise = 0.02;       ///< a case passes only if a slowdown by the threshold plus this is excluded
   int at_least = 20, at_most = 200;  ///< pairs
-  int layouts = 8;                   ///< builds of each program at the first look, if they are rebuilt
+  int layouts = 20;                  ///< builds of each program at the first look, if they are rebuilt
   /// Standard deviation of log time between builds, if they are not rebuilt. None: `usual_layout_deviation`.
   std::optional<double> layout_deviation = {};
 };
