@@ -79,6 +79,26 @@ TEST(Calibration, TooFewPairsSayHowManyAreNeeded) {
   }
 }
 
+TEST(Calibration, PairsMustBeAsManyAsAGateWouldTake) {
+  EXPECT_THROW(calibrate({1, {noise("loud", 0.08, 60, 2)}}, {}), TooFewSamples);
+}
+
+TEST(Calibration, DriftRaisesTheNoiseFloor) {
+  // Pairs that resemble their neighbors: the interval of few is too narrow.
+  PairedSamples samples = noise("a", 0, 0, 1);
+  std::mt19937_64 random(4);
+  std::normal_distribution<double> normal;
+  double drift = 0;
+  for (int i = 0; i < 200; ++i) {
+    drift = 0.95 * drift + 0.01 * normal(random);
+    samples.screening.push_back({0.1, 0.1 * std::exp(drift)});
+  }
+  Rules rules;
+  rules.time.at_least = 8;
+  rules.time.at_most = 8;
+  EXPECT_GT(calibrate({1, {samples}}, rules).cases.front().noise_floor, 0.001);
+}
+
 TEST(Calibration, NoiseThatNoGateOvercomesIsToldInAdvance) {
   Rules rules;
   rules.time.at_most = 60;
@@ -114,6 +134,19 @@ TEST(Calibration, TellsTheSpreadOfBuildsFromTheNoiseOfRuns) {
   EXPECT_NEAR(*c.cases.front().layout_deviation, 0.02, 0.005);
   EXPECT_NEAR(c.cases.front().deviation, 0.01 * std::sqrt(2.0), 0.003);
   EXPECT_FALSE(calibrate({1, {noise("a", 0.01, 100, 1)}}, {}).cases.front().layout_deviation);
+}
+
+TEST(Calibration, TheSpreadOfBuildsIsThatOfOneProgramAndNotOfARatio) {
+  // Builds of the base are 2% faster or slower than the mean, and so are those of the head: all four combinations.
+  PairedSamples samples = noise("a", 0, 0, 1);
+  for (int layout = 0; layout < 80; ++layout) {
+    const double base = layout % 2 == 0 ? 0.02 : -0.02, head = layout / 2 % 2 == 0 ? 0.02 : -0.02;
+    for (const double noise : {0.001, -0.001})
+      samples.screening.push_back({std::exp(base), std::exp(head + noise), false, layout});
+  }
+  Rules rules;
+  rules.time.at_least = rules.time.at_most = 4;
+  EXPECT_NEAR(calibrate({1, {samples}}, rules).cases.front().layout_deviation.value_or(0), 0.02, 0.001);
 }
 
 TEST(Calibration, IsTheSameAfterAFile) {

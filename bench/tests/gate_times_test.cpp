@@ -46,6 +46,13 @@ TimedTarget target(const std::string& name, double factor, std::uint64_t seed, d
   return fake;
 }
 
+PairedSamples case_without_times(const std::string& name) {
+  PairedSamples one;
+  one.case_name = name;
+  one.figure = "seconds.mesh";
+  return one;
+}
+
 struct Outcome {
   SampleSet samples;
   std::vector<JudgedFigure> figures;
@@ -127,6 +134,7 @@ TEST(TimeLayer, TooMuchNoiseIsUndecidedAndSaysHowMuch) {
   EXPECT_EQ(outcome.of("quiet").verdict, Judgment::passed);
   EXPECT_EQ(outcome.verdict(), Judgment::undecided);
   EXPECT_EQ(outcome.samples.cases.front().screening.size(), 40U);
+  EXPECT_TRUE(outcome.samples.cases.front().confirmation.empty()) << "only what looks worse is measured again";
   EXPECT_NE(outcome.of("noisy").words.find('%'), std::string::npos);
 }
 
@@ -348,6 +356,27 @@ TEST(TimeLayer, AStoppedGateGoesOnWhereItWas) {
   EXPECT_TRUE(std::equal(first.begin(), first.end(), samples.cases.front().screening.begin()));
 }
 
+TEST(TimeLayer, AStoppedGateStillTakesAsManyPairsAsTheRulesDemand) {
+  TimedTarget fake = {"a", "seconds.mesh"};
+  fake.run = [](const RunRequest&) { return measured({{"a", 1}}); };
+  fake.command = [](Side, const std::string&) { return ""; };
+  SampleSet samples = start_samples(1);
+  samples.cases.push_back(case_without_times("a"));
+  samples.cases.front().screening.assign(8, {1, 1});  // equal times: with these alone the case would be decided
+  measure_times(std::vector{fake}, {}, {}, samples);
+  EXPECT_EQ(samples.cases.front().screening.size(), 20U);
+}
+
+TEST(TimeLayer, AConfirmationEndsAtAWidthThatIsFixedInAdvance) {
+  const Outcome outcome = gate({target("a", 1.3, 1, 0.06)}, 1);
+  const PairedSamples& one = outcome.samples.cases.front();
+  ASSERT_LT(one.confirmation.size(), 200U);
+  const Look first = screen(one, outcome.samples, {}, nullptr);
+  const Look second = confirm(one, first, 1, {}, outcome.samples.seed);
+  EXPECT_LE(half_width(second.log_ratio), wanted_half_width(first, {}))
+      << "a confirmation that ends when it agrees would agree too often";
+}
+
 TEST(TimeLayer, ProgressHasATotalAndEndsAtIt) {
   TimeProgress last;
   SampleSet samples = start_samples(3);
@@ -359,6 +388,65 @@ TEST(TimeLayer, ProgressHasATotalAndEndsAtIt) {
   measure_times(std::vector{target("a", 1, 1), target("b", 1.2, 2)}, {}, options, samples);
   EXPECT_EQ(last.cases, 2U);
   EXPECT_EQ(last.expected, last.pairs);
+}
+
+// Verdicts of given times.
+
+/// Pairs whose head takes this many times as long, with little noise.
+std::vector<Pair> pairs_of(double factor) {
+  std::vector<Pair> pairs;
+  for (int i = 0; i < 20; ++i) pairs.push_back({1, factor * std::exp(i % 2 == 0 ? 0.001 : -0.001)});
+  return pairs;
+}
+
+/// One case of one program.
+SampleSet samples_of(const std::vector<Pair>& screening, const std::vector<Pair>& confirmation) {
+  SampleSet samples = start_samples(1);
+  samples.cases.push_back(case_without_times("a"));
+  samples.cases.front().screening = screening;
+  samples.cases.front().confirmation = confirmation;
+  return samples;
+}
+
+TEST(JudgeTimes, ACaseIsWorseIfBothMeasurementsSaySo) {
+  const auto verdict = [](double first, double second) {
+    return judgment_of(judge_times(samples_of(pairs_of(first), pairs_of(second)), {}, nullptr));
+  };
+  EXPECT_EQ(verdict(1.05, 1.05), Judgment::worse);
+  EXPECT_EQ(verdict(1.05, 1), Judgment::passed);
+  EXPECT_EQ(verdict(1, 1.05), Judgment::passed);
+  EXPECT_EQ(verdict(1.05, 1.005), Judgment::passed) << "the threshold is that of the first measurement";
+}
+
+TEST(JudgeTimes, ASlowdownThatWasNotConfirmedIsUndecided) {
+  EXPECT_EQ(judgment_of(judge_times(samples_of(pairs_of(1.05), {}), {}, nullptr)), Judgment::undecided);
+}
+
+TEST(JudgeTimes, ProgramsOfWhichNothingIsKnownMayBeTwoBuilds) {
+  SampleSet samples = samples_of(pairs_of(1), {});
+  const auto deviation = [&] { return precision_of(samples.cases.front(), samples, {}, nullptr).layout_deviation; };
+  EXPECT_EQ(deviation(), 0) << "one program has one layout";
+  samples.head_program = "another build";
+  EXPECT_EQ(deviation(), builds_of_programs);
+  samples.base_program = samples.head_program = "";
+  EXPECT_EQ(deviation(), builds_of_programs);
+  samples.is_rebuilt = true;
+  EXPECT_EQ(deviation(), 0) << "layouts are part of the pairs";
+}
+
+TEST(JudgeTimes, WhatBothProgramsSkipDoesNotCount) {
+  SampleSet samples = samples_of(pairs_of(1), {});
+  samples.cases.push_back(case_without_times("b"));
+  PairedSamples& skipped = samples.cases.back();
+  const auto verdict = [&](const std::string& base, const std::string& head) {
+    skipped.base_failure = base;
+    skipped.head_failure = head;
+    return judgment_of(judge_times(samples, {}, nullptr));
+  };
+  EXPECT_EQ(verdict("skipped", "skipped"), Judgment::passed);
+  EXPECT_EQ(verdict("", "skipped"), Judgment::worse);
+  EXPECT_EQ(verdict("skipped", ""), Judgment::incomparable);
+  EXPECT_EQ(verdict("skipped", "crashed"), Judgment::incomparable);
 }
 
 // Counters.
@@ -410,10 +498,41 @@ TEST(CounterTest, ThoseThatScatterAreJudgedByTheRatiosOfPairs) {
   EXPECT_EQ(counter_verdict(counting("n", 1000, 1300, 0.1), rules), Judgment::passed);
 }
 
+TEST(CounterTest, AWholeNumberThatDiffersBetweenRunsIsNotGated) {
+  TimedTarget fake = counting("n", 12, 12);
+  fake.run = [run = fake.run, runs = std::make_shared<int>(0)](const RunRequest& request) {
+    Measured result = run(request);
+    result.at("a").counters.at("n") += (*runs)++ % 3;
+    return result;
+  };
+  EXPECT_EQ(counter_verdict(fake), Judgment::incomparable);
+  EXPECT_EQ(gate({fake}, 1).verdict(), Judgment::passed) << "its time is judged";
+}
+
+TEST(CounterTest, AnIntervalOnBothSidesOfTheToleranceIsUndecided) {
+  SampleSet samples = samples_of(pairs_of(1), {});
+  PairedCounter& counter = samples.cases.front().counters["n"];
+  Rules rules;
+  rules.exact.tolerances = {{"counters.n", 0.05}};
+  const auto verdict = [&](double factor) {
+    counter = {};
+    for (int i = 0; i < 20; ++i) {
+      counter.base.push_back(100);
+      counter.head.push_back(100 * factor * std::exp(i % 2 == 0 ? 0.1 : -0.1));
+    }
+    return judgment_of(judge_times(samples, rules, nullptr));
+  };
+  EXPECT_EQ(verdict(0.9), Judgment::passed);
+  EXPECT_EQ(verdict(1.04), Judgment::undecided);
+  EXPECT_EQ(verdict(1.06), Judgment::undecided);
+  EXPECT_EQ(verdict(1.2), Judgment::worse);
+}
+
 TEST(CounterTest, WhatIsNotANumberIsNamedAndNotGated) {
   const double nan = std::nan("");
   EXPECT_EQ(counter_verdict(counting("n", nan, nan)), Judgment::incomparable);
   EXPECT_EQ(counter_verdict(counting("n", 12, nan)), Judgment::worse);
+  EXPECT_EQ(counter_verdict(counting("n", nan, 12)), Judgment::worse);
 }
 
 // Layouts.
@@ -463,7 +582,9 @@ TEST(LayoutTest, SeveralBuildsFindFivePercent) {
 TEST(LayoutTest, EachLayoutIsOneObservationAndTheConfirmationHasNewOnes) {
   SampleSet samples = start_samples(1);
   samples.is_rebuilt = true;
-  measure_times(std::vector{rebuilt("a", 1.2, 0.01, 1)}, {}, {}, samples);
+  Rules rules;
+  rules.time.layouts = 8;
+  measure_times(std::vector{rebuilt("a", 1.2, 0.01, 1)}, rules, {}, samples);
   const PairedSamples& one = samples.cases.front();
   std::map<int, int> screened, confirmed;
   for (const Pair& pair : one.screening) ++screened[pair.layout];
@@ -518,6 +639,34 @@ TEST(PairStatistics, AnIntervalOnBothSidesOfTheLimitIsOpen) {
   EXPECT_EQ(call(0.029, 0.01), Call::worse);
   EXPECT_EQ(call(0.02, 0.1), Call::open);
   EXPECT_EQ(call(0.028, 0.1), Call::open) << "narrow or not, a slowdown beyond the limit is not excluded";
+}
+
+TEST(PairStatistics, NothingPassesWithAThresholdOfMoreThanHalf) {
+  const auto call = [](double threshold) {
+    return look_at(pairs_of(1), {std::log1p(threshold), std::log1p(threshold + 0.02)}, bootstrap_for(0.95, 1)).call;
+  };
+  EXPECT_EQ(call(0.4), Call::not_worse);
+  EXPECT_EQ(call(0.6), Call::open);
+  EXPECT_EQ(call(10), Call::open);
+}
+
+TEST(PairStatistics, ADisturbedPairDoesNotMoveItsLayout) {
+  std::vector<Pair> pairs;
+  for (int layout = 0; layout < 6; ++layout) pairs.insert(pairs.end(), 3, {1, std::exp(0.01 * layout), false, layout});
+  const bench::Estimate quiet = log_ratio_of(pairs, {});
+  pairs[7].head *= 3;
+  EXPECT_EQ(log_ratio_of(pairs, {}), quiet);
+}
+
+TEST(PairStatistics, WithFewLayoutsThePairsAreTheObservations) {
+  std::vector<Pair> pairs;
+  for (int i = 0; i < 30; ++i) pairs.push_back({1, std::exp(0.01 * (i % 7)), false, i % 3});
+  EXPECT_EQ(log_ratio_of(pairs, {}), bench::trimmed_mean_estimate(log_ratios(pairs), trimmed_share));
+}
+
+TEST(PairStatistics, TheLooksOfAScreeningTogetherHaveTheConfidenceOfTheRules) {
+  EXPECT_NEAR(screening_confidence({.confidence = 0.95}), 0.9875, 1e-12);
+  EXPECT_NEAR(screening_confidence({.confidence = 0.99}), 0.9975, 1e-12);
 }
 
 TEST(PairStatistics, TheSmallestSlowdownFoundIsBeyondTheThresholdByTheNoise) {

@@ -124,6 +124,16 @@ TEST_F(TimedTargets, EachBenchmarkIsACaseInSeconds) {
   EXPECT_NE(target.command(Side::head, "insert/8").find("insert/8"), std::string::npos);
 }
 
+TEST_F(TimedTargets, RepetitionsAreMeasuredWithoutTheirMedian) {
+  const auto program = benchmark("bench", R"json({"name": "walk", "run_name": "walk", "run_type": "iteration",
+    "real_time": 4}, {"name": "walk", "run_name": "walk", "run_type": "iteration", "real_time": 6},
+    {"name": "walk_median", "run_name": "walk", "run_type": "aggregate", "aggregate_name": "median",
+     "real_time": 90})json");
+  const Measured found = benchmark_target({{program}, {program}}, {}, {}, {}, folder_.path()).run({Side::base, 0});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_DOUBLE_EQ(found.at("walk").seconds, 5e-9);
+}
+
 TEST_F(TimedTargets, AFailedBenchmarkIsACaseAndAProgramWithoutAnyAnError) {
   const auto failing = benchmark("failing", R"({"name": "a", "error_occurred": true, "error_message": "no file"},
     {"name": "b", "real_time": 1, "time_unit": "s"})");

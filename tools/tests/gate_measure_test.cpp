@@ -1,3 +1,4 @@
+#include <cstdlib>
 #include <map>
 
 #include "tools/tests/gate_recordings.h"
@@ -52,6 +53,21 @@ TEST_F(MeasuringGate, ABaselineIsMadeOfAMeasuredProgramAndGatesOthers) {
   ASSERT_EQ(run("gate --head ccdt --update --reason first" + options).exit_code, 0);
   EXPECT_EQ(run("gate --head ccdt" + options).exit_code, 0);
   EXPECT_EQ(run("gate --head worse" + options).exit_code, 1);
+}
+
+TEST_F(MeasuringGate, AnErrorIsNoVerdict) {
+  // Nothing can be counted, and so nothing was judged.
+  const auto broken = work() / "broken";
+  std::filesystem::create_directory(broken);
+  write("broken/valgrind", "#!/bin/sh\nexit 1\n");
+  std::filesystem::permissions(broken / "valgrind", std::filesystem::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (broken.string() + ":" + path).c_str(), 1);
+  const Outcome outcome = run("gate --base ccdt --head ccdt --sweep cases.json --layers instructions -o out");
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_FALSE(outcome.err.empty());
+  EXPECT_FALSE(std::filesystem::exists(work() / "out/verdict.json"));
 }
 
 /// Programs that stand for those on Google Benchmark, with made-up times.
@@ -217,8 +233,9 @@ TEST_F(TimedGate, AStoppedGateKeepsItsTimesAndSaysHowToGoOn) {
   EXPECT_TRUE(after.at("finished"));
   EXPECT_EQ(after.at("seed"), kept.at("seed"));
   EXPECT_EQ(after.at("cases").at(0).at("screening").at(0), kept.at("cases").at(0).at("screening").at(0));
-  EXPECT_EQ(run("gate --base quick --head sleeper -o out --resume -- --benchmark_filter=.").exit_code, 3)
-      << "those are the times of other programs";
+  for (const char* other : {"--base quick --head sleeper", "--base sleeper --head quick"})
+    EXPECT_EQ(run("gate " + std::string(other) + " -o out --resume -- --benchmark_filter=.").exit_code, 3)
+        << "those are the times of other programs";
 }
 
 }  // namespace
