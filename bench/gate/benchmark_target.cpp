@@ -63,18 +63,6 @@ bool is_benchmark(const Command& command) {
   return std::ranges::any_of(command, [](const std::string& word) { return word.starts_with("--benchmark"); });
 }
 
-std::string pattern_of(const std::set<std::string>& names) {
-  std::string pattern;
-  for (const std::string& name : names) {
-    pattern += pattern.empty() ? "^(" : "|";
-    for (const char c : name) {
-      if (std::string_view(".^$|()[]{}*+?\\").find(c) != std::string_view::npos) pattern += '\\';
-      pattern += c;
-    }
-  }
-  return pattern + ")$";
-}
-
 std::vector<std::string> list_benchmarks(const Command& command, const std::filesystem::path& folder) {
   Command listing = command;
   listing.emplace_back("--benchmark_list_tests=true");

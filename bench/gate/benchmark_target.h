@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <set>
 #include <string>
 
 #include "bench/gate/rules.h"
@@ -19,9 +18,6 @@ TimedTarget benchmark_target(const Programs& programs, const Command& arguments,
 
 /// Does a command look like one of Google Benchmark?
 bool is_benchmark(const Command& command);
-
-/// A regular expression that only these names match.
-std::string pattern_of(const std::set<std::string>& names);
 
 /// The names of the benchmarks that a command would run; empty if it cannot tell.
 std::vector<std::string> list_benchmarks(const Command& command, const std::filesystem::path& folder);

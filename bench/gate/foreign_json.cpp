@@ -76,18 +76,10 @@ std::string status_of(const Json& run) {
   return run.value("skipped", false) ? "skipped" : "ok";
 }
 
-/// A benchmark's name as a regular expression that matches nothing else.
-std::string filter_for(const std::string& name) {
-  std::string text = "^";
-  for (const char c : name)
-    text += std::string("\\^$.|?*+()[]{}").find(c) == std::string::npos ? std::string(1, c) : std::string("\\") + c;
-  return text + "$";
-}
-
 void add_run(const Json& run, const std::string& program, Recording& recording) {
   const std::string name = name_of_run(run);
   CaseFigures& one = case_named(name, recording);
-  if (!program.empty()) one.command = baselines::command_line({program, "--benchmark_filter=" + filter_for(name)});
+  if (!program.empty()) one.command = baselines::command_line({program, "--benchmark_filter=" + pattern_of({name})});
   const std::string status = status_of(run);
   if (find_figure(one, "status") == nullptr) one.figures.push_back({"status", Layer::exact, {}, status});
   if (status != "ok") return;
@@ -123,6 +115,18 @@ Json parse_benchmark_json(const std::string& text) {
     json += text[i++];
   }
   return Json::parse(json);
+}
+
+std::string pattern_of(const std::set<std::string>& names) {
+  std::string pattern;
+  for (const std::string& name : names) {
+    pattern += pattern.empty() ? "^(" : "|";
+    for (const char c : name) {
+      if (std::string_view(".^$|()[]{}*+?\\").find(c) != std::string_view::npos) pattern += '\\';
+      pattern += c;
+    }
+  }
+  return pattern + ")$";
 }
 
 bool is_google_benchmark(const Json& json) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "bench/gate/recording.h"
@@ -13,6 +14,9 @@ namespace ccdt::gate {
 ///
 /// \throw nlohmann::json::exception  it is not JSON, or a number is larger than any double
 bench::Json parse_benchmark_json(const std::string& text);
+
+/// The value of --benchmark_filter that only these benchmarks match.
+std::string pattern_of(const std::set<std::string>& names);
 
 /// Is it the output of Google Benchmark's `--benchmark_out`?
 bool is_google_benchmark(const bench::Json& json);

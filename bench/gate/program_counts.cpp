@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "baselines/external_program.h"
-#include "bench/gate/benchmark_target.h"
 #include "bench/gate/callgrind_profile.h"
+#include "bench/gate/foreign_json.h"
 #include "bench/gate/instructions.h"
 #include "bench/results/numbers.h"
 #include "engine/io/files.h"
