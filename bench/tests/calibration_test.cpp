@@ -80,7 +80,11 @@ TEST(Calibration, TooFewPairsSayHowManyAreNeeded) {
 }
 
 TEST(Calibration, PairsMustBeAsManyAsAGateWouldTake) {
-  EXPECT_THROW(calibrate({1, {noise("loud", 0.08, 60, 2)}}, {}), TooFewSamples);
+  Rules rules;
+  rules.time.at_least = 4;
+  rules.time.at_most = 20;
+  EXPECT_THROW(calibrate({1, {noise("loud", 0.08, 10, 2)}}, rules), TooFewSamples);
+  EXPECT_NO_THROW(calibrate({1, {noise("quiet", 0.001, 10, 2)}}, rules));
 }
 
 TEST(Calibration, DriftRaisesTheNoiseFloor) {
