@@ -49,6 +49,22 @@ TEST(CompareExactTest, TheToleranceIsAShareOfTheBase) {
   EXPECT_EQ(verdict(0.105), Judgment::passed);
 }
 
+TEST(CompareInstructionsTest, CountsUnderOtherConditionsAreNotCompared) {
+  Recording base, head;
+  case_named("part", base).figures.push_back({"instructions.mesh", Layer::instructions, {1e8}});
+  case_named("part", head).figures.push_back({"instructions.mesh", Layer::instructions, {2e8}});
+  base.identity["instructions.cpu"] = head.identity["instructions.cpu"] = "one";
+  Rules rules;
+  EXPECT_EQ(compare_instructions(base, head, rules).front().verdict, Judgment::worse);
+  head.identity["instructions.cpu"] = "another";
+  EXPECT_EQ(compare_instructions(base, head, rules).front().verdict, Judgment::incomparable);
+  EXPECT_FALSE(compare_instructions(base, head, rules).front().is_gated);
+  rules.layers_are_chosen = true;
+  EXPECT_TRUE(compare_instructions(base, head, rules).front().is_gated) << "who asks for it must get a verdict";
+  head.identity.clear();
+  EXPECT_EQ(compare_instructions(base, head, rules).front().verdict, Judgment::incomparable) << "one is not known";
+}
+
 JudgedFigure judged(Judgment verdict, const std::string& name = "work.steps") {
   JudgedFigure figure;
   figure.name = name;
