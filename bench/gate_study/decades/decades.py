@@ -69,6 +69,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, help="where everything is built and measured")
     parser.add_argument("--ccdt", type=Path, default=HERE.parents[2] / "build" / "release" / "ccdt")
+    parser.add_argument("--most", type=int, default=1000, help="gates of each kind, if fewer than planned")
     parser.add_argument("--groups", type=int, nargs="+", default=range(len(GROUPS)), help="only these groups of cases")
     arguments = parser.parse_args()
     folder, ccdt = arguments.folder.resolve(), arguments.ccdt.resolve()
@@ -81,7 +82,7 @@ def main():
     for group in arguments.groups:
         cases, pairs, gates = GROUPS[group]
         noise = calibrate(ccdt, folder, program, cases, pairs)
-        verdicts = {factor: [run_gate(ccdt, folder, program, cases, factor, n) for n in range(count)]
+        verdicts = {factor: [run_gate(ccdt, folder, program, cases, factor, n) for n in range(min(count, arguments.most))]
                     for factor, count in gates.items()}
         for case in cases:
             of_case = {factor: [one[case] for one in some] for factor, some in verdicts.items()}
