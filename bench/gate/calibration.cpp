@@ -200,7 +200,10 @@ std::optional<double> take_out_layouts(std::span<const Pair> pairs, std::vector<
   for (const auto& [layout, members] : layouts) {
     double mean = 0;
     for (const std::size_t i : members) mean += ratios[i] / static_cast<double>(members.size());
-    for (const std::size_t i : members) within += (ratios[i] -= mean) * ratios[i];
+    for (const std::size_t i : members) {
+      ratios[i] -= mean;
+      within += ratios[i] * ratios[i];
+    }
     means.push_back(mean);
   }
   const double between = std::pow(bench::standard_deviation(means), 2);
@@ -226,6 +229,13 @@ CaseNoise noise_of(const PairedSamples& samples, const TimeRules& rules, std::ui
   noise.autocorrelation = bench::autocorrelation(noise.log_ratios);
   noise.pairs_needed = pairs_needed(noise, pairs_of(noise.log_ratios), rules, seed);
   return noise;
+}
+
+void require_success(const PairedSamples& samples) {
+  if (samples.is_comparable()) return;
+  const std::string& why = samples.base_failure.empty() ? samples.head_failure : samples.base_failure;
+  throw InputError("the program fails on " + samples.case_name + ": " + why, {},
+                   "repair it, or leave out this case: --benchmark_filter, or time.cases of the rules");
 }
 
 /// A simulated gate draws as many pairs as a real one takes. It cannot know about noise that fewer pairs did not show.
@@ -270,6 +280,7 @@ Rules rules_of_calibration(const Rules& rules, int pairs) {
 Calibration calibrate(const SampleSet& samples, const Rules& rules) {
   Calibration calibration;
   calibration.seed = samples.seed;
+  for (const PairedSamples& s : samples.cases) require_success(s);
   for (const PairedSamples& s : samples.cases)
     calibration.cases.push_back(noise_of(s, time_rules_of(rules, s.case_name), samples.seed));
   for (const CaseNoise& noise : calibration.cases) require_enough(noise, time_rules_of(rules, noise.case_name));

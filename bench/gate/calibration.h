@@ -69,6 +69,7 @@ Rules rules_of_calibration(const Rules& rules, int pairs);
 
 /// The calibration from the pairs; program and identity are left empty.
 /// \throw TooFewSamples  says how many are needed
+/// \throw InputError     the program failed on a case
 Calibration calibrate(const SampleSet& samples, const Rules& rules);
 
 /// For people: the noise of each case, the false-alarm rate of the whole gate, and the smallest slowdown that it finds.

@@ -152,6 +152,12 @@ TEST_F(TimedGate, ACalibrationSaysHowManyPairsItNeeds) {
   EXPECT_EQ(Json::parse(text_of(work() / "out/calibration.json")).at("schema"), "ccdt.calibration/1");
 }
 
+TEST_F(TimedGate, ACalibrationOfAProgramThatFailsIsAnError) {
+  const Outcome outcome = run("gate --base failing --calibrate -o out -- --benchmark_filter=.");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("exit code 4"), std::string::npos) << outcome.err;
+}
+
 TEST_F(TimedGate, TenTimesSlowerNeverPassesHoweverShortAnIteration) {
   for (const std::string milliseconds : {"0.000001", "0.00469", "0.21", "20", "10000"}) {
     write_program("base", benchmark_of(milliseconds));
