@@ -95,8 +95,8 @@ double confirmation_confidence(const TimeRules& rules, int suspects);
 /// confirmation's own estimate: repeated looks at that would bias it toward the result to confirm.
 double wanted_half_width(const Look& screening, const TimeRules& rules);
 
-/// The smallest slowdown, as a log ratio, that a gate with this noise finds with 95% probability: a slowdown keeps a case
-/// open, so there would have been `at_most` pairs.
+/// The smallest slowdown, as a log ratio, that a gate with this noise finds with 95% probability: a slowdown keeps a
+/// case open, so there would have been `at_most` pairs.
 ///
 /// \param pairs       of the look
 /// \param confidence  of its interval
