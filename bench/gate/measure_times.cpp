@@ -265,6 +265,11 @@ class Measurement {
 
   static void add_pair(const std::array<Attempt, 2>& both, Pair pair, Pairs pairs, PairedSamples& one) {
     const auto base = both[0].measured.find(one.case_name), head = both[1].measured.find(one.case_name);
+    // A case that does not come back would be waited for without end.
+    for (const Side side : {Side::base, Side::head})
+      if (const Attempt& one_side = both[side == Side::head];
+          one_side.failure.empty() && !one_side.measured.contains(one.case_name))
+        (side == Side::base ? one.base_failure : one.head_failure) = "did not run again when asked for by its name";
     if (base == both[0].measured.end() || head == both[1].measured.end()) return;
     one.base_failure = base->second.failure;
     one.head_failure = head->second.failure;

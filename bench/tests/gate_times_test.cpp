@@ -267,6 +267,18 @@ TEST(TimeLayer, ACrashAfterGoodRunsIsOneRow) {
   EXPECT_EQ(outcome.of("good").verdict, Judgment::passed);
 }
 
+TEST(TimeLayer, ACaseThatDoesNotComeBackIsNotWaitedFor) {
+  TimedTarget fake = {"bench", "real_time"};
+  fake.command = [](Side, const std::string&) { return ""; };
+  fake.run = [](const RunRequest& request) {
+    return request.cases.empty() || request.side == Side::base ? measured({{"good", 1}, {"shy", 1}})
+                                                               : measured({{"good", 1}});
+  };
+  const Outcome outcome = gate({fake}, 1);
+  EXPECT_EQ(outcome.of("shy").verdict, Judgment::worse);
+  EXPECT_EQ(outcome.of("good").verdict, Judgment::passed);
+}
+
 TEST(TimeLayer, TheHeadMayTakeManyTimesAsLongAsTheBaseButNotForEver) {
   std::map<Side, double> limits;
   TimedTarget fake = target("a", 1, 1);
