@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <random>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "baselines/stop.h"
@@ -158,7 +161,7 @@ void compare_instructions(const GateCommand& command, const gate::Rules& rules, 
                               "; --base PROGRAM counts those of a base on this machine");
     merge(counts, head.recording);
   } catch (const InputError& error) {
-    if (!command.layers.empty() || !command.rules.empty()) throw;
+    if (rules.layers_are_chosen) throw;
     verdict.notes.push_back(std::string("instructions were not counted: ") + error.what() + "; " + error.remedy());
   }
 }
@@ -171,9 +174,21 @@ std::filesystem::path samples_file(const GateCommand& command) {
   return std::filesystem::path(command.folder) / "samples.json";
 }
 
-/// What a program is, whatever its folder: the hash of its file, and its arguments.
+/// Is it compiled? A script may call something else in each folder.
+bool is_compiled(const std::string& file) {
+  std::array<char, 4> begins{};
+  std::ifstream(file, std::ios::binary).read(begins.data(), begins.size());
+  return std::string_view(begins.data(), begins.size()) ==
+         "\x7f"
+         "ELF";
+}
+
+/// What a program is: the hash of its file, with its path if it is a script, and its arguments. Copies of a compiled
+/// program are the same.
 std::string identity_of(gate::Command program) {
-  program.front() = bench::sha256_of_file(program.front());
+  const std::string file = program.front();
+  program.front() = bench::sha256_of_file(file);
+  if (!is_compiled(file)) program.insert(program.begin(), file);
   return baselines::command_line(program);
 }
 
