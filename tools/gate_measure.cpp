@@ -306,10 +306,8 @@ void measure_programs(const GateCommand& command, gate::Rules rules, gate::Verdi
         "exact,instructions,time counts them");
     return;
   }
-  const auto folder = std::filesystem::absolute(command.folder) / "instructions";
-  std::filesystem::create_directories(folder);
   GateProgress progress;
-  append(gate::compare_counts(programs, {command.words, is_benchmark ? names : std::set<std::string>(), folder}, rules,
+  append(gate::compare_counts(programs, {command.words, is_benchmark ? names : std::set<std::string>()}, rules,
                               progress.counted()),
          verdict);
 }

@@ -69,11 +69,8 @@ ProgramCounts count_run(const fs::path& valgrind, const Programs& programs, cons
   counted.insert(counted.end(), command.begin(), command.end());
   run(request, counted, limits_of_counting);
   ProgramCounts counts;
-  for (const fs::path& profile : profiles_in(folder.path(), is_loop)) {
+  for (const fs::path& profile : profiles_in(folder.path(), is_loop))
     add_profile(io::read_whole_file(profile).bytes, counts);
-    fs::copy_file(profile, options.folder / (std::string(name_of(request.side)) + ".callgrind"),
-                  fs::copy_options::overwrite_existing);
-  }
   if (counts.instructions == 0) fail(request.side, command, "callgrind counted nothing");
   return counts;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <string>
@@ -27,7 +26,6 @@ struct ProgramCounts {
 struct CountOptions {
   Command arguments = {};            ///< for both programs
   std::set<std::string> cases = {};  ///< benchmarks; empty: the whole process
-  std::filesystem::path folder;      ///< for the profiles; exists
 };
 
 /// Counts base and head. A case of Google Benchmark is one iteration of its loop, without what comes before and after;
