@@ -19,7 +19,7 @@ constexpr auto options_of_surface = std::to_array<std::string_view>({"edge-lengt
 constexpr auto options_of_refinement = std::to_array<std::string_view>({"edge-length", "grading"});
 /// Options of interior points.
 constexpr auto options_of_lattice =
-    std::to_array<std::string_view>({"clearance", "edge-length", "grading", "sizes", "sphere-factor"});
+    std::to_array<std::string_view>({"clearance", "edge-length", "grading", "radius-edge", "sizes", "sphere-factor"});
 /// Options of improvement.
 constexpr auto options_of_improvement =
     std::to_array<std::string_view>({"boundary", "improve-time", "objective", "target-dihedral", "target-r"});
@@ -51,7 +51,7 @@ std::string canonical(const std::string& name, std::string value) {
 class Asked {
  public:
   explicit Asked(const NamedOptions& options) {
-    for (const auto& [name, value] : options) options_[name] = canonical(name, value);
+    for (const auto& [name, value] : with_strategies(options)) options_[name] = canonical(name, value);
     // The default of improvement depends on the lattice, even for a mesher without one.
     if (!options_.contains("improve") && value("lattice") == value_none) options_["improve"] = value_none;
   }
@@ -68,6 +68,7 @@ class Asked {
 
 bool matters(const OptionUse& use, const Asked& asked) {
   if (use.only_inside && asked.value("lattice") == value_none) return false;
+  if (use.name == "radius-edge" && asked.value("lattice") != name_of(Lattice::refinement)) return false;
   if (is_among(options_of_improvement, use.name) && asked.value("improve") == value_none) return false;
   return use.name != "target-r" || asked.value("objective") == name_of(Objective::r);
 }
@@ -91,6 +92,7 @@ const NamedOptions& usual_options() {
                         {"locator", text_of(o.locator)},
                         {"objective", text_of(o.improve.objective)},
                         {"protection", text_of(o.protection)},
+                        {"radius-edge", digits(o.radius_edge)},
                         {"sharp-angle", digits(surface::RemeshOptions().sharp_angle)},
                         {"sizes", ""},
                         {"sphere-factor", digits(o.sphere_factor)},
@@ -98,9 +100,33 @@ const NamedOptions& usual_options() {
                         {"surface", "keep"},
                         {"target-dihedral", digits(o.improve.target_dihedral)},
                         {"target-r", digits(o.improve.target_r)},
-                        {"threads", "1"}};
+                        {"threads", "1"},
+                        {"visibility", text_of(o.visibility)}};
   }();
   return all;
+}
+
+NamedOptions options_of(Strategies strategies, const NamedOptions& given) {
+  NamedOptions options;
+  if (strategies == Strategies::paper)
+    options = {{"delaunay", text_of(DelaunayMethod::wrap)},
+               {"improve", text_of(Improvement::swap_smooth)},
+               {"locator", text_of(LocatorKind::grid)},
+               {"protection", text_of(Protection::midpoint)},
+               {"visibility", text_of(Visibility::faces)}};
+  const auto lattice = given.find("lattice");
+  if (lattice != given.end() && lattice->second == value_none) options.erase("improve");
+  for (const auto& [name, value] : given) options.erase(name);
+  return options;
+}
+
+NamedOptions with_strategies(NamedOptions options) {
+  const auto named = options.find("strategies");
+  if (named == options.end()) return options;
+  const std::string name = canonical(named->first, named->second);
+  options.erase(named);
+  if (const auto strategies = value_of<Strategies>(name)) options.merge(options_of(*strategies, options));
+  return options;
 }
 
 std::vector<OptionUse> options_of_engine() {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "baselines/mesher.h"
+#include "engine/base/enum_names.h"
 
 namespace ccdt::baselines {
 
@@ -13,6 +15,24 @@ using NamedOptions = std::map<std::string, std::string>;
 
 /// The options of `ccdt mesh` that control meshing, with their defaults; empty if a default depends on the input.
 const NamedOptions& usual_options();
+
+/// Strategies that belong together.
+enum class Strategies { usual, paper };
+
+constexpr auto names_of(Strategies) {
+  return std::to_array<NamedValue<Strategies>>(
+      {{Strategies::usual, "default", "the fastest"},
+       {Strategies::paper, "paper",
+        "the paper's algorithm: --delaunay wrap --locator grid --protection midpoint --visibility faces "
+        "--improve swap-smooth"}});
+}
+
+/// The options that strategies stand for, without those that are given. Without interior points, there is no
+/// improvement either.
+NamedOptions options_of(Strategies strategies, const NamedOptions& given);
+
+/// Replaces the option "strategies", if there is one, by the options that it stands for.
+NamedOptions with_strategies(NamedOptions options);
 
 /// The options that our engine uses.
 std::vector<OptionUse> options_of_engine();

@@ -247,6 +247,7 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
                     {"lattice", std::string(name_of(options.lattice))},
                     {"locator", std::string(name_of(options.locator))},
                     {"delaunay", std::string(name_of(options.delaunay))},
+                    {"visibility", std::string(name_of(options.visibility))},
                     {"protection", std::string(name_of(options.protection))},
                     {"improve", std::string(name_of(improvement_of(options)))},
                     {"objective", std::string(name_of(options.improve.objective))},
@@ -263,6 +264,7 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
                     {"sizes", options.background.name},
                     {"sphere_factor", options.sphere_factor},
                     {"clearance", options.clearance},
+                    {"radius_edge", options.radius_edge},
                     {"threads", static_cast<double>(number_of_threads(options))}};
   return record;
 }

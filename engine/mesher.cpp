@@ -79,7 +79,7 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   const BackgroundSizes background = in_grid_units(options.background, plc.grid);
   const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
                                         options.grading,   options.sphere_factor,
-                                        options.clearance, &background};
+                                        options.clearance, options.radius_edge,                        &background};
   const std::vector<Point3> vertices = points_of(surface.delaunay);
   return lattice::place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
 }

@@ -8,6 +8,7 @@
 #include "engine/base/progress.h"
 #include "engine/base/work.h"
 #include "engine/delaunay/options.h"
+#include "engine/front/options.h"
 #include "engine/front/segment_counts.h"
 #include "engine/improve/counts.h"
 #include "engine/improve/options.h"
@@ -22,6 +23,7 @@ namespace ccdt {
 // The names that a user of the engine needs, each from its stage.
 using delaunay::DelaunayMethod;
 using front::SegmentCounts;
+using front::Visibility;
 using improve::BoundaryRule;
 using improve::ImproveCounts;
 using improve::Improvement;
@@ -44,6 +46,7 @@ struct MeshOptions {
   Protection protection = Protection::shell;
   LocatorKind locator = LocatorKind::cavity;
   DelaunayMethod delaunay = DelaunayMethod::core;
+  Visibility visibility = Visibility::centroid;
   double least_core = 0.35;  ///< `core` inserts all points if a smaller share of the lattice than this is deep within
                              ///< one level, because searching for cores would then take longer; 0: always search
   double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
@@ -55,6 +58,7 @@ struct MeshOptions {
   double flatness = usual_flatness;             ///< see PlcOptions
   double sphere_factor = 1;                     ///< see LatticeOptions
   double clearance = lattice::usual_clearance;  ///< see LatticeOptions
+  double radius_edge = 2;                       ///< see LatticeOptions
   unsigned threads = 0;                         ///< that work at the same time; 0: one for each core. Same mesh.
   ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`
   /// A size function, in the units of the input; it replaces the edge lengths of the surface.

@@ -9,6 +9,7 @@ set(public_headers
   base/progress.h
   base/work.h
   delaunay/options.h
+  front/options.h
   front/segment_counts.h
   improve/counts.h
   improve/options.h

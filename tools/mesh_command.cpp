@@ -53,6 +53,7 @@ struct MeshCommand {
   MeshOptions options;
   Surface surface = Surface::keep;
   double sharp_angle = surface::RemeshOptions().sharp_angle;
+  baselines::Strategies strategies = baselines::Strategies::usual;
   baselines::NamedOptions given;  ///< the options on the command line
 };
 
@@ -340,6 +341,7 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
       ->check(known_mesher())
       ->capture_default_str();
 
+  add_choice(verb, "--strategies", command.strategies, "strategies that belong together; other options replace them");
   constexpr auto protected_faces = std::to_array<NamedValue<bool>>(
       {{true, "on", "only faces that are not Delaunay, found by a check"}, {false, "off", "all"}});
   add_choice(verb, "--face-protection", command.options.face_protection, protected_faces,
@@ -350,6 +352,8 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
              "search structure for the vertices near a face and the faces near an edge");
   add_choice(verb, "--delaunay", command.options.delaunay,
              "method of Delaunay tetrahedralization; all give the same result");
+  add_choice(verb, "--visibility", command.options.visibility,
+             "how the front finds out whether a vertex can be seen from a face");
   add_choice(verb, "--surface", command.surface, "surface of the mesh");
   verb.add_option("--sharp-angle", command.sharp_angle,
                   "remeshing keeps edges between facets whose normals differ by more than this, in degrees")
@@ -396,6 +400,10 @@ void add_numbers(CLI::App& verb, MeshOptions& options) {
                   "least distance of interior points from the surface, in edge lengths there")
       ->check(non_negative_number())
       ->capture_default_str();
+  verb.add_option("--radius-edge", options.radius_edge,
+                  "--lattice refinement: largest circumradius of a tetrahedron over its shortest edge")
+      ->check(number_between(1, 100))
+      ->capture_default_str();
   verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size of the paper's uniform grids")
       ->check(number_between(0.1, 100))
       ->capture_default_str();
@@ -412,6 +420,14 @@ void add_options(CLI::App& verb, MeshCommand& command) {
   add_strategies(verb, command);
   add_improvement(verb, command.options.improve);
   add_numbers(verb, command.options);
+}
+
+baselines::NamedOptions given_options(const CLI::App& verb) {
+  baselines::NamedOptions given;
+  for (const CLI::Option* option : verb.get_options())
+    if (option->count() > 0 && !option->get_lnames().empty())
+      given[option->get_lnames().front()] = option->results().front();
+  return given;
 }
 
 /// The error in these words of a command line; empty: none.
@@ -456,9 +472,12 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
   verb->footer(meshers_of_build);
   verb->footer(mesh_footer);
   verb->callback([command, verb, &exit_code] {
-    for (const CLI::Option* option : verb->get_options())
-      if (option->count() > 0 && !option->get_lnames().empty())
-        command->given[option->get_lnames().front()] = option->results().front();
+    command->given = given_options(*verb);
+    for (const auto& [name, value] : baselines::options_of(command->strategies, command->given)) {
+      CLI::Option* const option = verb->get_option("--" + name);
+      option->add_result(value);
+      option->run_callback();
+    }
     run(*command);
     exit_code = done;
   });

@@ -10,9 +10,10 @@ namespace ccdt::improve {
 /// What improvement may do.
 enum class Improvement {
   none,
-  swap,    ///< other tetrahedra of the same vertices: edges and faces are removed
-  smooth,  ///< other positions of the same vertices
-  all      ///< both, and insertion and removal of interior vertices where these are stuck
+  swap,         ///< other tetrahedra of the same vertices: edges and faces are removed
+  smooth,       ///< other positions of the same vertices
+  swap_smooth,  ///< both, as in the paper (section 5)
+  all           ///< both, and insertion and removal of interior vertices where these are stuck
 };
 
 constexpr auto names_of(Improvement) {
@@ -20,6 +21,7 @@ constexpr auto names_of(Improvement) {
       {{Improvement::all, "all", "swaps, smoothing, insertion, collapse and reconnection"},
        {Improvement::swap, "swap", "other tetrahedra of the same vertices"},
        {Improvement::smooth, "smooth", "other positions of the same vertices"},
+       {Improvement::swap_smooth, "swap-smooth", "both, as in the paper"},
        {Improvement::none, "none", "the mesh as it is"}});
 }
 

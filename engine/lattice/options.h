@@ -10,14 +10,23 @@
 
 namespace ccdt::lattice {
 
-/// The crystal lattice whose points fill the inside.
-enum class Lattice { none, fcc, bcc, sc };
+/// The points that fill the inside: those of a crystal lattice, or circumcenters.
+enum class Lattice {
+  none,
+  fcc,
+  bcc,
+  sc,
+  refinement  ///< no lattice, but Delaunay refinement: circumcenters of skinny and of large tetrahedra
+};
 
 constexpr auto names_of(Lattice) {
   return std::to_array<NamedValue<Lattice>>({{Lattice::fcc, "fcc", "face-centered cubic"},
                                              {Lattice::bcc, "bcc", "body-centered cubic"},
                                              {Lattice::sc, "sc", "simple cubic"},
-                                             {Lattice::none, "none", "no interior points"}});
+                                             {Lattice::none, "none", "no interior points"},
+                                             {Lattice::refinement, "refinement",
+                                              "no lattice: circumcenters of skinny and of large tetrahedra "
+                                              "(Delaunay refinement)"}});
 }
 
 /// Target edge lengths given at the vertices of a background: a tetrahedral mesh, or vertices alone. Empty if there is
@@ -44,6 +53,7 @@ struct LatticeOptions {
   /// 1 is the paper's rule, 0 switches it off.
   double sphere_factor = 1;
   double clearance = usual_clearance;           ///< least distance to the surface, in edge lengths of the lattice there
+  double radius_edge = 2;  ///< Delaunay refinement: the largest circumradius over the shortest edge
   const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
 };
 
