@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { completeSpec, inTwoLines } from "../src/charts/spec.mjs";
+import { inLines } from "../src/charts/labels.mjs";
+import { completeSpec } from "../src/charts/spec.mjs";
 
 const columns = [
   { name: "model", kind: "label" },
@@ -81,7 +82,17 @@ test("layers that name themselves are series", () => {
     assert.deepEqual(layer.encoding.color.scale.domain, ["measured here", "the paper"]);
 });
 
-test("a long name is split where its halves are most alike", () => {
-  assert.deepEqual(inTwoLines("CDT with face protection check"), ["CDT with face", "protection check"]);
-  assert.deepEqual(inTwoLines("unsplittable"), ["unsplittable"]);
+test("a long name takes as many lines as it needs, and is never cut", () => {
+  assert.deepEqual(inLines("CDT with face protection check", 80, 10), ["CDT with face", "protection check"]);
+  assert.deepEqual(inLines("unsplittable", 10, 10), ["unsplittable"]);
+});
+
+test("linear axes start at zero, unless the chart says where", () => {
+  const scaleOf = (x) => {
+    const spec = { data: { name: "times" }, mark: "point", encoding: { x: { field: "seconds.value", type: "quantitative", ...x } } };
+    return completeSpec(section, { tables: ["times"], spec }).encoding.x.scale;
+  };
+  assert.equal(scaleOf({}).domainMin, 0);
+  assert.deepEqual(scaleOf({ scale: { domain: [1, 3] } }), { domain: [1, 3] });
+  assert.equal(scaleOf({ scale: { type: "log" } }).domainMin, undefined);
 });

@@ -1,8 +1,10 @@
 import * as vega from "vega";
 import { compile } from "vega-lite";
 import { chartData } from "./chart_data.mjs";
+import { completeLogAxes } from "./log_axes.mjs";
 import { FIRST_ROOM } from "./sizes.mjs";
 import { completeSpec } from "./spec.mjs";
+import { textSize } from "./text_size.mjs";
 
 /** Charts have their data in them: nothing is ever loaded. */
 const loader = {
@@ -37,11 +39,23 @@ function withClearLegends(spec) {
   return spec;
 }
 
+/**
+ * From Vega-Lite to Vega, with clear legends and logarithmic axes.
+ * @param {object} spec  of `completeSpec`
+ * @param {number} fontSize  pixels
+ * @param {object} [logger]
+ */
+export function compiled(spec, fontSize, logger) {
+  const made = withClearLegends(compile(spec, { logger }).spec);
+  completeLogAxes(made, fontSize);
+  return made;
+}
+
 /** @returns {Promise<{view: vega.View, warnings: string[]}>} */
-async function run(spec) {
+async function run(spec, fontSize) {
   const warnings = [];
   const logger = collector(warnings);
-  const runtime = vega.parse(withClearLegends(compile(spec, { logger }).spec));
+  const runtime = vega.parse(compiled(spec, fontSize, logger));
   const view = new vega.View(runtime, { renderer: "none", loader, logger });
   await view.runAsync();
   return { view, warnings };
@@ -78,7 +92,7 @@ export async function drawn(section, chart, options) {
   const data = options.data ?? chartData(section, chart, options.passes);
   let room = options.room ?? (await roomOf(section, chart, options, data));
   for (let fitting = 1; ; ++fitting) {
-    const made = await run(completeSpec(section, chart, { ...options, room, data }));
+    const made = await run(completeSpec(section, chart, { ...options, room, data }), textSize(options.theme));
     const excess = (await widthOf(made.view)) - options.width;
     if ((excess <= 0 && excess > -CLOSE_ENOUGH) || fitting === MOST_FITTINGS) return { ...made, room };
     made.view.finalize();

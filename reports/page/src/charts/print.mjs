@@ -1,6 +1,6 @@
 import config from "../../../charts/config.json" with { type: "json" };
 
-/** How wide a chart is in print, in CSS pixels: a column of a journal, or the text. */
-export function printWidth(chart) {
-  return chart.spec.usermeta?.columns === 1 ? config.columnWidth : config.textWidth;
-}
+const CSS_PIXELS_PER_CENTIMETER = 96 / 2.54;
+
+/** How wide every figure is in print, in CSS pixels: a column of a journal. */
+export const PRINT_WIDTH = Math.floor(config.figureCentimeters * CSS_PIXELS_PER_CENTIMETER);

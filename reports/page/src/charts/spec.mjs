@@ -1,17 +1,19 @@
-import config from "../../../charts/config.json" with { type: "json" };
 import { chartData } from "./chart_data.mjs";
+import { heightOfLines, inLines, linesExpression, raisedByLines } from "./labels.mjs";
+import { PRINT_WIDTH } from "./print.mjs";
 import { inSeriesOrder, seriesStyles } from "./series.mjs";
 import { FIRST_ROOM, sized } from "./sizes.mjs";
+import { textSize } from "./text_size.mjs";
 import { textsOf } from "./texts.mjs";
 import { textWidth } from "./text_width.mjs";
-import { chartConfig, colorIn, textScale } from "./themes.mjs";
+import { chartConfig, colorIn } from "./themes.mjs";
 
 const SERIES_CHANNELS = ["color", "fill", "stroke", "shape", "strokeDash"];
 const PLACES = ["x", "y"];
 const TABLE_ORDER = ["x", "y", "facet"];
 const SERIES_ORDER = ["xOffset", "yOffset"];
-const HALF_A_LINE = 6.5;
-const LONGEST_LABEL = 0.28; // of the width, in one line
+const LONGEST_LABEL = 0.48; // of the width, in one line
+const ROW_GAP = 5; // pixels between the labels of rows
 const SYMBOL_ROOM = 30; // of a legend's entry, beside its text
 const LINE_ROOM = 48; // the same of a line that shows its dashes
 
@@ -28,23 +30,26 @@ function isText(definition) {
   return definition.field !== undefined && ["nominal", "ordinal"].includes(definition.type);
 }
 
-/** A text in two lines of about the same width. */
-export function inTwoLines(text) {
-  const spaces = [...text.matchAll(/ /g)].map(({ index }) => index);
-  if (spaces.length === 0) return [text];
-  const middle = spaces.reduce((best, at) =>
-    Math.abs(at - text.length / 2) < Math.abs(best - text.length / 2) ? at : best,
-  );
-  return [text.slice(0, middle), text.slice(middle + 1)];
+/** Makes rows at least this high, unless each has several marks beside each other. */
+function raiseRows(spec, height) {
+  const isNested = spec.encoding?.yOffset !== undefined;
+  if (spec.height?.step && !isNested) spec.height.step = Math.max(spec.height.step, height);
+  if (spec.spec) raiseRows(spec.spec, height);
 }
 
-/** Long names of rows take two lines where they would leave little room for the rows. */
-function wrapLabels(definition, values, theme, width) {
-  const long = values.filter((value) => textWidth(value, 10 * textScale(theme)) > LONGEST_LABEL * width);
-  if (long.length === 0 || definition.axis === null) return;
-  const lines = JSON.stringify(Object.fromEntries(long.map((value) => [value, inTwoLines(value)])));
-  const raised = { condition: { test: `isArray(${lines}[datum.value])`, value: -HALF_A_LINE }, value: 0 };
-  definition.axis = { ...definition.axis, labelExpr: `${lines}[datum.value] || datum.value`, labelOffset: raised };
+/** Names of rows take several lines where they would leave little room for the rows, which then are higher. */
+function wrapRowLabels(spec, definition, values, { theme, width }) {
+  if (definition.axis === null) return;
+  const fontSize = textSize(theme);
+  const widest = LONGEST_LABEL * width;
+  definition.axis = {
+    ...definition.axis,
+    labelExpr: linesExpression("datum.value", widest, fontSize),
+    labelOffset: raisedByLines(widest, fontSize),
+    labelLineHeight: heightOfLines(1, fontSize),
+  };
+  const most = Math.max(1, ...values.map((value) => inLines(value, widest, fontSize).length));
+  raiseRows(spec, heightOfLines(most, fontSize) + ROW_GAP);
 }
 
 /** The width of a legend with its entries in this many columns, row by row. */
@@ -57,34 +62,60 @@ function legendWidth(entries, columns) {
 
 /** The number of columns of a legend that has as few rows as possible, all about equally full. */
 function legendColumns(values, theme, width, room) {
-  const entries = values.map((value) => textWidth(value, 10.5 * textScale(theme)) + room);
+  const entries = values.map((value) => Math.min(width, textWidth(value, textSize(theme)) + room));
   let columns = values.length;
   while (columns > 1 && legendWidth(entries, columns) > width) --columns;
   const rows = Math.ceil(values.length / columns);
   return Math.ceil(values.length / rows);
 }
 
-function styleSeries(channel, definition, values, { theme, width, symbol }) {
+/** A legend with as many columns as it has room for, and no cut labels. */
+function completeLegend(definition, values, { theme, width, symbol }) {
+  if (definition.legend === null) return;
+  const label = definition.legend?.labelExpr ?? "datum.label";
+  definition.legend = {
+    columns: legendColumns(values, theme, width, symbol),
+    ...definition.legend,
+    labelExpr: linesExpression(label, width - symbol, textSize(theme)),
+  };
+}
+
+function styleSeries(channel, definition, values, theme) {
   const styles = seriesStyles(values);
   const range = styles.map(({ color, shape, dash }) =>
     channel === "shape" ? shape : channel === "strokeDash" ? dash : colorIn(theme, color),
   );
   definition.scale = { domain: values, range };
-  if (definition.legend !== null)
-    definition.legend = { columns: legendColumns(values, theme, width, symbol), ...definition.legend };
 }
 
-// Lines at the powers of ten alone: a logarithmic axis has a tick for each digit.
-const POWERS_OF_TEN = {
-  condition: { test: "abs(log(datum.value) / LN10 - round(log(datum.value) / LN10)) < 1e-6", value: 1 },
-  value: 0,
-};
+/** The places of which the chart says where they start. Its layers share them, and only one of them need say so. */
+function placesWithStart(spec) {
+  const places = new Set();
+  eachChannel(spec, (channel, { scale }) => {
+    if (scale?.type === "log" || scale?.domain) places.add(channel);
+  });
+  return places;
+}
 
-/** A logarithmic axis ends where the data end, with few lines. */
-function completeLogarithmic(definition) {
-  definition.scale = { nice: false, padding: 10, ...definition.scale };
-  if (definition.axis !== null && !definition.axis?.values)
-    definition.axis = { gridOpacity: POWERS_OF_TEN, ...definition.axis };
+/** A logarithmic axis ends where the data end; a linear one starts at zero, unless the chart says where. */
+function completePlace(definition, hasStart) {
+  const { scale } = definition;
+  if (scale?.type === "log") definition.scale = { nice: false, padding: 10, ...scale };
+  else if (definition.type === "quantitative" && !hasStart)
+    definition.scale = { zero: true, domainMin: 0, nice: true, ...scale };
+}
+
+/** The width of the names of rows, or the most that it can be where the chart computes them. */
+function rowLabelWidth(spec, data, theme, width) {
+  const fontSize = textSize(theme);
+  let widest = 0;
+  eachChannel(spec, (channel, definition) => {
+    if (channel !== "y" || !isText(definition) || definition.axis === null) return;
+    const lines = textsOf(data, definition.field).flatMap((value) => inLines(value, LONGEST_LABEL * width, fontSize));
+    const widths = lines.map((line) => textWidth(line, fontSize));
+    widest = Math.max(widest, ...(widths.length > 0 ? widths : [LONGEST_LABEL * width]));
+  });
+  return widest;
 }
 
 /** The width of the symbol in a legend's entry: longer if the series are only lines. */
@@ -110,18 +141,22 @@ function datumsOf(spec, channel) {
  */
 function completeChannels(spec, data, { theme, width, room }) {
   const legend = { theme, width: width - room, symbol: symbolRoom(spec) };
+  const withStart = placesWithStart(spec);
+  const complete = (channel, definition, values) => {
+    if (definition.scale === undefined || (definition.scale.domain && !definition.scale.scheme))
+      styleSeries(channel, definition, values, theme);
+    completeLegend(definition, values, legend);
+  };
   eachChannel(spec, (channel, definition) => {
-    if (SERIES_CHANNELS.includes(channel) && typeof definition.datum === "string")
-      styleSeries(channel, definition, datumsOf(spec, channel), legend);
-    if (definition.scale?.type === "log" && PLACES.includes(channel)) completeLogarithmic(definition);
+    const isSeries = SERIES_CHANNELS.includes(channel);
+    if (isSeries && typeof definition.datum === "string") complete(channel, definition, datumsOf(spec, channel));
+    if (PLACES.includes(channel)) completePlace(definition, withStart.has(channel));
     if (!isText(definition)) return;
-    const named = definition.scale?.range ? undefined : definition.scale?.domain;
-    const values = named ?? textsOf(data, definition.field);
-    if (values.length === 0) return;
-    if (SERIES_CHANNELS.includes(channel) && (named || definition.scale === undefined))
-      styleSeries(channel, definition, named ?? inSeriesOrder(values), legend);
-    if (channel === "y") wrapLabels(definition, values, theme, width);
-    if (definition.sort !== undefined) return;
+    const values = textsOf(data, definition.field);
+    if (channel === "y") wrapRowLabels(spec, definition, values, { theme, width });
+    const named = definition.scale?.domain ?? inSeriesOrder(values);
+    if (isSeries && named.length > 0 && !definition.scale?.range) complete(channel, definition, named);
+    if (definition.sort !== undefined || values.length === 0) return;
     if (TABLE_ORDER.includes(channel)) definition.sort = values;
     if (SERIES_ORDER.includes(channel)) definition.sort = inSeriesOrder(values);
   });
@@ -143,13 +178,13 @@ function completeChannels(spec, data, { theme, width, room }) {
 export function completeSpec(
   section,
   chart,
-  { theme = "light", width = config.columnWidth, room = FIRST_ROOM, font, passes, data = chartData(section, chart, passes) } = {},
+  { theme = "light", width = PRINT_WIDTH, room = FIRST_ROOM, font, passes, data = chartData(section, chart, passes) } = {},
 ) {
   const spec = structuredClone(chart.spec);
   completeChannels(spec, data, { theme, width, room });
   return {
     $schema: "https://vega.github.io/schema/vega-lite/v6.json",
-    ...sized(spec, data, width, room),
+    ...sized(spec, data, { width, room, fontSize: textSize(theme), rowLabels: rowLabelWidth(spec, data, theme, width) }),
     datasets: data,
     config: chartConfig(theme, font),
   };

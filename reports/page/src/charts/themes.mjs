@@ -1,16 +1,11 @@
 import config from "../../../charts/config.json" with { type: "json" };
+import { PRINT_WIDTH } from "./print.mjs";
+import { textSize } from "./text_size.mjs";
 
 /**
  * Light and dark hold their colors; "page" asks the page's style for them, so that a chart follows its theme.
  * @typedef {"light"|"dark"|"page"} Theme
  */
-
-const PAGE_TEXT_SCALE = 1.18;
-
-/** How much larger text is than on paper: a page is read at a greater distance. */
-export function textScale(theme) {
-  return theme === "page" ? PAGE_TEXT_SCALE : 1;
-}
 
 function fromPage(colors) {
   return Object.fromEntries(Object.keys(colors).map((name) => [name, `var(--chart-${name})`]));
@@ -37,17 +32,17 @@ export function colorIn(theme, name) {
 export function chartConfig(theme, font = config.font) {
   const { background, text, quiet, axis, grid } = frameOf(theme);
   const named = paletteOf(theme);
-  const size = (points) => points * textScale(theme);
+  const size = textSize(theme);
   return {
     background,
     font,
     padding: { left: 2, top: 4, right: 6, bottom: 2 },
-    view: { stroke: null, continuousWidth: config.columnWidth, continuousHeight: 200 },
+    view: { stroke: null, continuousWidth: PRINT_WIDTH, continuousHeight: 200 },
     axis: {
       labelColor: quiet,
-      labelFontSize: size(10),
+      labelFontSize: size,
       titleColor: text,
-      titleFontSize: size(11),
+      titleFontSize: size,
       titleFontWeight: "normal",
       titlePadding: 7,
       domainColor: axis,
@@ -56,38 +51,38 @@ export function chartConfig(theme, font = config.font) {
       gridColor: grid,
       gridWidth: 0.75,
       labelPadding: 3,
-      labelLimit: 200,
+      labelLimit: 0, // never cut
     },
     axisX: { grid: false },
     header: {
       labelColor: text,
-      labelFontSize: size(11),
-      labelFontWeight: "bold",
+      labelFontSize: size,
+      labelFontWeight: "normal",
       labelPadding: 5,
       title: null,
-      labelLimit: 260,
+      labelLimit: 0,
     },
     legend: {
       orient: "top",
       direction: "horizontal",
       title: null,
       labelColor: text,
-      labelFontSize: size(10.5),
+      labelFontSize: size,
       symbolSize: 60,
       symbolStrokeWidth: 1.6,
-      labelLimit: 260,
+      labelLimit: 0,
       columnPadding: 14,
       rowPadding: 3,
       offset: 8,
       padding: 0,
     },
-    title: { color: text, fontSize: size(12), anchor: "start", fontWeight: "bold", offset: 8 },
+    title: { color: text, fontSize: size, anchor: "start", fontWeight: "normal", offset: 8 },
     point: { tooltip: { content: "data" }, filled: true, size: 42, opacity: 1, color: named.blue },
     line: { strokeWidth: 1.6, color: named.blue },
     rule: { tooltip: { content: "data" }, strokeWidth: 1.2, color: named.gray },
     tick: { color: named.ink, thickness: 1.6 },
     bar: { tooltip: { content: "data" }, color: named.blue },
-    text: { color: text, fontSize: size(10) },
+    text: { color: text, fontSize: size },
     aria: false,
   };
 }

@@ -1,6 +1,6 @@
 import { drawn } from "../charts/draw.mjs";
 import { measureWithoutCanvas } from "../charts/measure_text.mjs";
-import { printWidth } from "../charts/print.mjs";
+import { PRINT_WIDTH } from "../charts/print.mjs";
 
 measureWithoutCanvas();
 
@@ -12,11 +12,11 @@ function described(svg, chart) {
 }
 
 /**
- * A chart for print: light, and as wide as a column of a journal, or two.
+ * A chart for print: light, and as wide as a column of a journal.
  * @returns {Promise<string>} SVG
  */
 export async function chartSvg(section, chart) {
-  const { view, warnings } = await drawn(section, chart, { theme: "light", width: printWidth(chart) });
+  const { view, warnings } = await drawn(section, chart, { theme: "light", width: PRINT_WIDTH });
   for (const words of warnings) console.error(`${section.name}, ${chart.name}: ${words}`);
   const svg = await view.toSVG();
   view.finalize();

@@ -1,9 +1,11 @@
 import { readFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { join } from "node:path";
+import { PRINT_WIDTH } from "../charts/print.mjs";
 import { meshPicture } from "../viewer/mesh_picture.mjs";
+import { figureNames } from "./figure_name.mjs";
 
 /**
- * The kept meshes that are to be drawn, each cut open, as EXPERIMENT-MESH.
+ * The kept meshes that are to be drawn, each cut open, named by what they show.
  * @param {object} report  of schema `ccdt.report/1`
  * @param {string} folder  in which the report's files are
  * @returns {Promise<{figures: {name: string, svg: string}[], trouble: string[]}>} trouble: what could not be drawn, and why
@@ -11,11 +13,12 @@ import { meshPicture } from "../viewer/mesh_picture.mjs";
 export async function meshFigures(report, folder) {
   const figures = [], trouble = [];
   for (const { name, meshes } of report.experiments) {
-    for (const { file } of meshes.filter(({ figure }) => figure)) {
+    const shown = meshes.filter(({ figure }) => figure);
+    const names = figureNames(name, shown.map(({ title }) => title));
+    for (const [index, { file }] of shown.entries()) {
       try {
-        const svg = await meshPicture(JSON.parse(readFileSync(join(folder, file), "utf8")));
-        const mesh = basename(file, ".json");
-        figures.push({ name: mesh.startsWith(`${name}-`) ? mesh : `${name}-${mesh}`, svg });
+        const kept = JSON.parse(readFileSync(join(folder, file), "utf8"));
+        figures.push({ name: names[index], svg: await meshPicture(kept, { size: PRINT_WIDTH }) });
       } catch (error) {
         trouble.push(`${file}: ${error.message}`);
       }

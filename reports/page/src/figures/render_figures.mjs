@@ -2,7 +2,7 @@
  * Draws the figures of a report: node render_figures.mjs REPORT.json OUT
  *
  * Each chart becomes OUT/EXPERIMENT-CHART.svg, and .pdf and .png of it; each mesh that was kept for a picture becomes
- * OUT/EXPERIMENT-MESH.svg, .pdf and .png. Meshes are read from the folder of REPORT.json.
+ * OUT/EXPERIMENT-TITLE.svg, .pdf and .png: fig7-piston.pdf. Meshes are read from the folder of REPORT.json.
  */
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";

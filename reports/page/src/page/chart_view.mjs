@@ -6,14 +6,14 @@ import { factsOf } from "./mark_facts.mjs";
 import { openTrace } from "./trace.mjs";
 import { tooltipOf } from "./tooltip.mjs";
 import { pageFont } from "./theme.mjs";
-import { printWidth } from "../charts/print.mjs";
+import { PRINT_WIDTH } from "../charts/print.mjs";
 
 const PNG_SCALE = 3;
 const NARROWEST = 240;
 
 /** As for print: light, in the width and the font of the static figures. */
 async function printView(section, chart, passes) {
-  return (await drawn(section, chart, { theme: "light", width: printWidth(chart), passes })).view;
+  return (await drawn(section, chart, { theme: "light", width: PRINT_WIDTH, passes })).view;
 }
 
 async function saveAsSvg(section, chart, passes) {

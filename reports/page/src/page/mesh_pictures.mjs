@@ -1,10 +1,11 @@
+import { figureNames } from "../figures/figure_name.mjs";
 import { meshPicture } from "../viewer/mesh_picture.mjs";
 import { element } from "./dom.mjs";
-import { baseName, download } from "./downloads.mjs";
+import { download } from "./downloads.mjs";
 import { inTurn } from "./in_turn.mjs";
 
 /** One mesh, cut open. */
-function picture({ file, title }, kept) {
+function picture({ file, title }, name, kept) {
   const image = element("img", { alt: `${title}, cut open` });
   const save = element(
     "button.small",
@@ -16,7 +17,7 @@ function picture({ file, title }, kept) {
   const draw = async () => {
     const svg = await meshPicture(kept);
     image.src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
-    save.addEventListener("click", () => download(baseName(file).replace(/json$/, "svg"), svg, "image/svg+xml"));
+    save.addEventListener("click", () => download(`${name}.svg`, svg, "image/svg+xml"));
     save.hidden = false;
   };
   inTurn(draw).catch((error) =>
@@ -32,11 +33,12 @@ function picture({ file, title }, kept) {
  */
 export function meshPictures(section, keptMeshes) {
   const meshes = section.meshes.filter(({ file, figure }) => figure && keptMeshes[file]);
+  const names = figureNames(section.name, meshes.map(({ title }) => title));
   return meshes.length > 0
     ? element(
         "div.mesh-pictures",
         {},
-        meshes.map((mesh) => picture(mesh, keptMeshes[mesh.file])),
+        meshes.map((mesh, index) => picture(mesh, names[index], keptMeshes[mesh.file])),
       )
     : null;
 }
