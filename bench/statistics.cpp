@@ -16,19 +16,6 @@ namespace {
 /// Without `long double`: Valgrind does not support its range, and tables that Boost fills at the start would overflow.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// An index below `count`. `std::uniform_int_distribution` may differ between standard libraries; a product of the
-/// generator's 64 bits does not.
-std::size_t draw_index(std::size_t count, std::mt19937_64& random) {
-  const double unit = static_cast<double>(random() >> 11) * 0x1p-53;
-  return static_cast<std::size_t>(unit * static_cast<double>(count));
-}
-
-/// Draws with replacement.
-void resample(std::span<const double> samples, std::mt19937_64& random, std::vector<double>& drawn) {
-  drawn.resize(samples.size());
-  for (double& value : drawn) value = samples[draw_index(samples.size(), random)];
-}
-
 /// The interval between the outer percentiles of the resampled statistic.
 template <class Statistic>
 Estimate percentile_interval(double value, const Bootstrap& bootstrap, Statistic statistic) {
@@ -139,25 +126,6 @@ double autocorrelation(std::span<const double> samples) {
     if (i > 0) next += (samples[i] - center) * (samples[i - 1] - center);
   }
   return own > 0 ? next / own : 0;
-}
-
-Estimate median_estimate(std::span<const double> samples, const Bootstrap& bootstrap) {
-  std::vector<double> drawn;
-  return percentile_interval(median(samples), bootstrap, [&](std::mt19937_64& random) {
-    resample(samples, random, drawn);
-    return median(drawn);
-  });
-}
-
-Estimate ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
-                          const Bootstrap& bootstrap) {
-  std::vector<double> drawn;
-  return percentile_interval(median(numerator) / median(denominator), bootstrap, [&](std::mt19937_64& random) {
-    resample(numerator, random, drawn);
-    const double above = median(drawn);
-    resample(denominator, random, drawn);
-    return above / median(drawn);
-  });
 }
 
 Estimate trimmed_mean_estimate(std::span<const double> samples, double share, const Bootstrap& bootstrap) {

@@ -1,16 +1,28 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace ccdt::bench {
 
-/// An estimate with its confidence interval.
+/// The confidence of all intervals that do not name another.
+inline constexpr double usual_confidence = 0.95;
+
+/// An estimate with its confidence interval. Of too few samples there is none: it is then infinite on both sides, so
+/// that every bound is undecided.
 struct Estimate {
   double value = 0, low = 0, high = 0;
 
+  bool has_interval() const {
+    return low > -std::numeric_limits<double>::infinity() && high < std::numeric_limits<double>::infinity();
+  }
   bool operator==(const Estimate&) const = default;
 };
+
+inline Estimate without_interval(double value) {
+  return {value, -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+}
 
 /// The result of comparing an interval with a bound.
 enum class BoundTest {
@@ -21,12 +33,12 @@ enum class BoundTest {
 BoundTest is_at_most(const Estimate& estimate, double bound);
 BoundTest is_at_least(const Estimate& estimate, double bound);
 
-/// The width of the interval on its wider side, as a share of the value; 0 if that is 0.
+/// The width of the interval on its wider side, as a share of the value; 0 if that is 0, infinite without an interval.
 double relative_spread(const Estimate& estimate);
 
 /// How a bootstrap is drawn. The seed is fixed, so the same samples always give the same interval.
 struct Bootstrap {
-  double confidence = 0.95;
+  double confidence = usual_confidence;
   int resamples = 4000;
   std::uint64_t seed = 20050901;
 };
@@ -56,15 +68,6 @@ double robust_deviation(std::span<const double> samples);
 /// The correlation of each sample with the next; 0 with fewer than three or if all are equal.
 double autocorrelation(std::span<const double> samples);
 
-/// The median, with the percentile bootstrap interval (Efron and Tibshirani 1993, chapter 13).
-/// \pre there is a sample
-Estimate median_estimate(std::span<const double> samples, const Bootstrap& bootstrap = {});
-
-/// The ratio of the medians of two independent samples, each resampled on its own.
-/// \pre there is a sample in each and the denominators are positive
-Estimate ratio_of_medians(std::span<const double> numerator, std::span<const double> denominator,
-                          const Bootstrap& bootstrap = {});
-
 /// The trimmed mean with its percentile bootstrap interval, which covers well with heavy tails and few samples
 /// (Wilcox 2017, "Introduction to Robust Estimation and Hypothesis Testing", section 4.4).
 /// \pre as for `trimmed_mean`
@@ -74,7 +77,7 @@ Estimate trimmed_mean_estimate(std::span<const double> samples, double share, co
 /// 2017, section 4.3). For few samples, for which a bootstrap is too narrow.
 ///
 /// \pre as for `trimmed_mean`, and at least two samples remain
-Estimate trimmed_t_estimate(std::span<const double> samples, double share, double confidence = 0.95);
+Estimate trimmed_t_estimate(std::span<const double> samples, double share, double confidence = usual_confidence);
 
 /// The value that a standard normal variable exceeds with this probability.
 /// \pre 0 < probability < 1
@@ -82,7 +85,7 @@ double normal_tail(double probability);
 
 /// The share of trials that were hits, with the interval of Clopper and Pearson (1934).
 /// \pre there is a trial
-Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence = 0.95);
+Estimate share_of(std::int64_t hits, std::int64_t trials, double confidence = usual_confidence);
 
 /// A straight line through measured points.
 struct LineFit {
@@ -93,10 +96,10 @@ struct LineFit {
 
 /// Least squares of y over x, with the interval of Student's t for the slope (Draper and Smith 1998, section 1.4).
 /// \pre as many x as y, at least 3, not all x equal
-LineFit fit_line(std::span<const double> x, std::span<const double> y, double confidence = 0.95);
+LineFit fit_line(std::span<const double> x, std::span<const double> y, double confidence = usual_confidence);
 
 /// The same of log y over log x: the slope is the exponent of a power law.
 /// \pre as for `fit_line`, and all are positive
-LineFit fit_power(std::span<const double> x, std::span<const double> y, double confidence = 0.95);
+LineFit fit_power(std::span<const double> x, std::span<const double> y, double confidence = usual_confidence);
 
 }  // namespace ccdt::bench

@@ -122,7 +122,8 @@ class ExperimentComparison {
       if (!is_same) add(tables_.differences);
     }
     const auto *e = std::get_if<bench::Estimate>(&first), *f = std::get_if<bench::Estimate>(&second);
-    if (table.is_data || c.kind != ColumnKind::time || e == nullptr || f == nullptr || !(e->value != 0)) return;
+    if (table.is_data || c.kind != ColumnKind::time || e == nullptr || f == nullptr) return;
+    if (e->value == 0 || !e->has_interval()) return;
     const bool is_within = f->value >= e->low && f->value <= e->high;
     ++counts_.times;
     counts_.outside += !is_within;

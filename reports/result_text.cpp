@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/json.h"
+#include "bench/median_interval.h"
 #include "bench/results/numbers.h"
 #include "engine/base/digits.h"
 
@@ -133,8 +134,10 @@ std::string machine(const bench::Environment& e) {
 
 std::string how_measured(const results::Circumstances& how) {
   if (how.runs <= 1) return "One run of each case; everything but the seconds is the same in every run.";
-  return "Medians of " + std::to_string(how.runs) + " runs or more, in turns, after one warm-up run, with " +
-         rounded(100 * how.confidence, 2) + "% intervals.";
+  const std::string medians =
+      "Medians of " + std::to_string(how.runs) + " runs or more, in turns, after one warm-up run";
+  if (how.runs < bench::fewest_for_interval) return medians + "; so few runs have no interval.";
+  return medians + ", with " + rounded(100 * how.confidence, 2) + "% intervals.";
 }
 
 /// Of the remeshed surface and its mesh.

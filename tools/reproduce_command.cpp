@@ -12,6 +12,7 @@
 #include "bench/cases/identity.h"
 #include "bench/experiments/registry.h"
 #include "bench/json.h"
+#include "bench/median_interval.h"
 #include "engine/io/files.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
@@ -229,9 +230,9 @@ void add_limits(CLI::App& verb, ReproduceCommand& command) {
 
 void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
   verb.add_option("--runs", command.options.runs,
-                  "least number of counted runs of each timed case (three if they take long); more follow until its "
-                  "interval is narrow enough")
-      ->check(whole_number(5, 1000))
+                  "least number of counted runs of each timed case; more follow until its interval is narrow enough or "
+                  "they take long")
+      ->check(whole_number(bench::fewest_for_interval, 1000))
       ->capture_default_str();
   verb.add_option("--scale", command.options.scale,
                   "quick, paper, large, or the approximate number of tetrahedra per model")

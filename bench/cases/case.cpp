@@ -1,23 +1,13 @@
 #include "bench/cases/case.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
-#include "bench/statistics.h"
+#include "bench/median_interval.h"
 
 namespace ccdt::cases {
-namespace {
-
-constexpr std::size_t enough_long_runs = 3;
-
-bool is_over_budget(const MeasuredCase& measured, const std::vector<double>& samples) {
-  const double budget = measured.asked.repetitions.budget_seconds;
-  return budget > 0 && samples.size() >= enough_long_runs &&
-         std::accumulate(samples.begin(), samples.end(), 0.0) >= budget;
-}
-
-}  // namespace
 
 void add_run(MeasuredCase& measured, RunRecord record) {
   const bool failed = record.status != baselines::RunStatus::ok;
@@ -28,15 +18,37 @@ void add_run(MeasuredCase& measured, RunRecord record) {
   ++measured.runs;
 }
 
+std::vector<int> looks_of(const Repetitions& repetitions) {
+  if (repetitions.until <= 0) return {repetitions.at_least};
+  return bench::looks_between(repetitions.at_least, std::max(repetitions.at_least, repetitions.at_most));
+}
+
+bool are_enough(const Repetitions& repetitions, std::span<const double> samples, double mesh_seconds) {
+  const std::vector<int> looks = looks_of(repetitions);
+  const auto counted = static_cast<int>(samples.size());
+  if (counted >= looks.back()) return true;
+  const auto look = std::ranges::find(looks, counted);
+  if (look == looks.end()) return false;  // a stop between looks would have to be paid by wider intervals
+  const double budget = repetitions.budget_seconds, seconds_until_next = mesh_seconds / counted * *std::next(look);
+  return (budget > 0 && seconds_until_next > budget) ||
+         bench::relative_spread(bench::median_estimate(samples, looks)) <= repetitions.until;
+}
+
 bool needs_run(const MeasuredCase& measured) {
   const Repetitions& repetitions = measured.asked.repetitions;
   if (measured.failed()) return false;
-  const auto counted = static_cast<int>(measured.counted.size());
-  if (measured.runs < repetitions.warm_up || counted == 0) return true;
-  if (is_over_budget(measured, samples_of(measured, &StageSeconds::mesh))) return false;
-  if (counted < repetitions.at_least) return true;
-  if (repetitions.until <= 0 || counted >= repetitions.at_most) return false;
-  return spread_of(samples_of(measured, measured.asked.seconds)) > repetitions.until;
+  if (measured.runs < repetitions.warm_up) return true;
+  const std::vector<double> seconds = samples_of(measured, &StageSeconds::mesh);
+  return !are_enough(repetitions, samples_of(measured, measured.asked.seconds),
+                     std::accumulate(seconds.begin(), seconds.end(), 0.0));
+}
+
+RunsLeft runs_left(const MeasuredCase& measured) {
+  if (!needs_run(measured)) return {};
+  const std::vector<int> looks = looks_of(measured.asked.repetitions);
+  const auto next = std::ranges::upper_bound(looks, static_cast<int>(measured.counted.size()));
+  const int done = measured.runs - measured.asked.repetitions.warm_up;  // negative before all warm-up runs
+  return {*next - done, looks.back() - done};
 }
 
 std::string run_file(const std::string& id, int number) {
@@ -63,8 +75,8 @@ std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& se
   return samples;
 }
 
-double spread_of(const std::vector<double>& samples) {
-  return samples.size() < 2 ? 0 : bench::relative_spread(bench::median_estimate(samples));
+bench::Estimate median_of(const MeasuredCase& measured, const SecondsOf& seconds) {
+  return bench::median_estimate(samples_of(measured, seconds), looks_of(measured.asked.repetitions));
 }
 
 }  // namespace ccdt::cases

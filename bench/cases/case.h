@@ -2,11 +2,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "baselines/process.h"
 #include "bench/run_record.h"
+#include "bench/statistics.h"
 #include "engine/mesher.h"
 
 namespace ccdt::cases {
@@ -18,10 +20,19 @@ struct Repetitions {
   int warm_up = 0;   ///< runs before those that count; they have the first numbers
   int at_least = 1;  ///< counted runs
   int at_most = 1;
-  double until = 0;  ///< between the two, stop once the half-width of the median's 95% interval is at most this share
-                     ///< of the median; 0: stop at `at_least`
-  double budget_seconds = 0;  ///< three counted runs are enough if together they take this long; 0: never
+  double until = 0;  ///< stop at the first of the looks between the two at which the half-width of the median's
+                     ///< interval is at most this share of the median; 0: stop at `at_least`
+  double budget_seconds = 0;  ///< stop at a look if meshing would take longer than this until the next; 0: no limit
 };
+
+/// The numbers of counted runs after which a case may stop. Its interval takes them into account.
+std::vector<int> looks_of(const Repetitions& repetitions);
+
+/// Are these counted runs enough?
+///
+/// \param samples       the measured quantity
+/// \param mesh_seconds  of all of them together
+bool are_enough(const Repetitions& repetitions, std::span<const double> samples, double mesh_seconds);
 
 /// The quantity of a run that is measured: seconds of one stage, of several, or of all.
 using SecondsOf = std::function<double(const StageSeconds&)>;
@@ -56,6 +67,12 @@ void add_run(MeasuredCase& measured, RunRecord record);
 /// Does the case need another run? A failed case does not.
 bool needs_run(const MeasuredCase& measured);
 
+/// At least this many more runs, up to the next look, and at most this many.
+struct RunsLeft {
+  int least = 0, most = 0;
+};
+RunsLeft runs_left(const MeasuredCase& measured);
+
 /// The file of a run, relative to the folder: "runs/ID-NUMBER.json".
 std::string run_file(const std::string& id, int number);
 
@@ -68,8 +85,8 @@ std::string mesh_file(const MeasuredCase& measured);
 /// One number of each counted run.
 std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
-/// The larger half-width of the median's 95% interval, as a share of the median. 0 with fewer than two samples, or if
-/// all are 0.
-double spread_of(const std::vector<double>& samples);
+/// The median of these seconds with its interval.
+/// \pre there is a counted run
+bench::Estimate median_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
 }  // namespace ccdt::cases

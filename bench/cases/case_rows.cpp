@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "bench/median_interval.h"
 #include "bench/results/kept_mesh.h"
 #include "engine/io/tet_mesh_files.h"
 
@@ -32,15 +33,15 @@ std::vector<double> samples_of(const CaseRow& row) {
 }
 
 std::optional<Estimate> seconds_of(const CaseRow& row) {
-  const std::vector<double> samples = samples_of(row);
-  if (samples.empty()) return {};
-  return bench::median_estimate(samples);
+  if (samples_of(row).empty()) return {};
+  return median_of(row.measured, row.seconds);
 }
 
 std::optional<Estimate> ratio_of(const CaseRow& above, const CaseRow& below) {
   const std::vector<double> a = samples_of(above), b = samples_of(below);
   if (a.empty() || b.empty() || std::ranges::min(b) <= 0) return {};
-  return bench::ratio_of_medians(a, b);
+  const MeasuredCase& shorter = a.size() < b.size() ? above.measured : below.measured;
+  return bench::median_ratio(a, b, looks_of(shorter.asked.repetitions));
 }
 
 bool is_ours(const CaseRow& row) {

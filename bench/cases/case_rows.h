@@ -43,7 +43,7 @@ std::vector<std::string> runs_of(const CaseRow& row);
 std::vector<double> samples_of(const CaseRow& row);
 std::optional<Estimate> seconds_of(const CaseRow& row);
 
-/// The ratio to another row; none if one of them failed or took no time.
+/// The median of the ratios to the runs of another row in the same rounds; none if one of them failed or took no time.
 std::optional<Estimate> ratio_of(const CaseRow& above, const CaseRow& below);
 
 /// Does the row belong to our mesher?

@@ -18,9 +18,7 @@ namespace {
 /// The largest number of records that a case can have. Whether each run was needed was decided when it was made;
 /// deciding that again would take longer than reading all records.
 int most_runs(const Repetitions& repetitions) {
-  const int counted =
-      repetitions.until > 0 ? std::max(repetitions.at_least, repetitions.at_most) : repetitions.at_least;
-  return repetitions.warm_up + counted;
+  return repetitions.warm_up + looks_of(repetitions).back();
 }
 
 /// The case with this id, and its records.
@@ -81,7 +79,7 @@ class RunCounter {
   RunCounter(const Progress& progress, const Group& cases) : progress_(progress) {
     for (const MeasuredCase* measured : cases) {
       done_ += static_cast<std::uint64_t>(measured->runs);
-      total_ += static_cast<std::uint64_t>(measured->runs + left(*measured));
+      total_ += static_cast<std::uint64_t>(measured->runs + runs_left(*measured).least);
     }
   }
 
@@ -94,15 +92,9 @@ class RunCounter {
   void end(const MeasuredCase& measured, int left_before) {
     const std::lock_guard lock(mutex_);
     ++done_;
-    total_ = total_ + 1 + static_cast<std::uint64_t>(left(measured)) - static_cast<std::uint64_t>(left_before);
+    total_ =
+        total_ + 1 + static_cast<std::uint64_t>(runs_left(measured).least) - static_cast<std::uint64_t>(left_before);
     report(progress_, measured.asked.name, done_, total_);
-  }
-
-  /// At least this many more runs.
-  static int left(const MeasuredCase& measured) {
-    if (!needs_run(measured)) return 0;
-    const Repetitions& repetitions = measured.asked.repetitions;
-    return std::max(1, repetitions.warm_up + repetitions.at_least - measured.runs);
   }
 
  private:
@@ -112,7 +104,7 @@ class RunCounter {
 };
 
 void run_counted(const RunPlace& place, MeasuredCase& measured, RunCounter& counter) {
-  const int left_before = RunCounter::left(measured);
+  const int left_before = runs_left(measured).least;
   counter.begin(measured);
   run_next(place, measured);
   counter.end(measured, left_before);
@@ -161,7 +153,7 @@ void run_beside(const RunPlace& place, const Group& cases, RunCounter& counter) 
 
 bool is_uncertain(const MeasuredCase& measured) {
   const double until = measured.asked.repetitions.until;
-  return until > 0 && !measured.failed() && spread_of(samples_of(measured, measured.asked.seconds)) > until;
+  return until > 0 && !measured.failed() && bench::relative_spread(median_of(measured, measured.asked.seconds)) > until;
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ std::vector<std::string> definitions(const std::string& command) {
       "Before timing, the results are compared: insert and wrap have the same tetrahedra.",
       "CGAL and TetGen fill the same volume, with the same number of tetrahedra on random points.",
       "Other points have many Delaunay tetrahedralizations, which differ in the number of tetrahedra.",
-      "Ratios are of medians.",
+      "A ratio is the median of the ratios of repetitions with the same number.",
       "All rows come from " + std::string(output_file) +
           ", as written by Google Benchmark. To repeat it in the folder of the report: " + command,
   };
@@ -72,7 +72,7 @@ const Measured* find(Group group, std::string_view method) {
 std::optional<Estimate> ratio(Group group, std::string_view above, std::string_view below) {
   const Measured *a = find(group, above), *b = find(group, below);
   if (a == nullptr || b == nullptr || std::ranges::min(b->seconds) <= 0) return {};
-  return bench::ratio_of_medians(a->seconds, b->seconds);
+  return bench::median_ratio(a->seconds, b->seconds);
 }
 
 const RowColumns<Measured> time_columns = {
@@ -168,7 +168,7 @@ void add_growth(Group small, Group large, std::vector<std::string>& findings) {
   for (const auto& [name, method] : methods) {
     const Measured *first = find(small, method), *last = find(large, method);
     if (first == nullptr || last == nullptr) continue;
-    const Estimate r = bench::ratio_of_medians(last->seconds, first->seconds);
+    const Estimate r = bench::median_ratio(last->seconds, first->seconds);
     growths.push_back(method + " " + with_interval(scaled(r, *first->vertices / *last->vertices)));
   }
   if (!growths.empty())

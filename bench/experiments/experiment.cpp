@@ -13,10 +13,10 @@ namespace {
 
 constexpr int most_runs = 60;
 
-/// Long cases are run less often. What counts as long depends on the scale: ten seconds with 100,000 tetrahedra per
-/// model.
+/// Long cases are run less often. What counts as long depends on the scale: twenty seconds for all runs of a case with
+/// 100,000 tetrahedra per model.
 double budget(const ExperimentOptions& options) {
-  return options.tetrahedra / 10000;
+  return options.tetrahedra / 5000;
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ Circumstances start_experiment(const ExperimentOptions& options, int runs) {
   for (const char* folder : {"models", "meshes", "runs"}) std::filesystem::create_directories(options.folder / folder);
   return {.environment = bench::capture_environment(),
           .runs = runs,
-          .confidence = bench::Bootstrap{}.confidence,
+          .confidence = bench::usual_confidence,
           .limits = options.limits,
           .tetrahedra = options.tetrahedra,
           .scale = options.scale,
@@ -88,10 +88,22 @@ cases::Case timed_case(const ExperimentOptions& options, std::string group, cons
   return timed;
 }
 
+bool is_short(const ExperimentOptions& options, const cases::MeasuredCase& first) {
+  return !first.failed() && options.runs * first.first.seconds.mesh <= budget(options);
+}
+
+std::string short_case_words(const ExperimentOptions& options) {
+  return "Cases of which " + std::to_string(options.runs) + " runs would take more than " +
+         rounded(budget(options), 2) + " s are run once; their seconds have no interval.";
+}
+
 std::string repetition_words(const ExperimentOptions& options, double until) {
-  return "A case is repeated until the interval of its median is within " + rounded(100 * until, 1) + "% of it, " +
-         std::to_string(options.runs) + " to " + std::to_string(std::max(options.runs, most_runs)) +
-         " times; three are enough if they take " + rounded(budget(options), 2) + " s.";
+  std::vector<std::string> looks;
+  for (const int look : bench::looks_between(options.runs, std::max(options.runs, most_runs)))
+    looks.push_back(std::to_string(look));
+  return "A case is repeated " + joined(looks, " or ") + " times: until the interval of its median is within " +
+         rounded(100 * until, 1) + "% of it, or the next number would take more than " + rounded(budget(options), 2) +
+         " s. The intervals, between order statistics, cover in 95% of all cases with this rule.";
 }
 
 std::string choose(BoundTest test, std::string_view holds, std::string_view undecided, std::string_view fails) {

@@ -12,6 +12,7 @@
 #include "baselines/process.h"
 #include "bench/cases/case_rows.h"
 #include "bench/cases/runner.h"
+#include "bench/median_interval.h"
 #include "bench/results/experiment_result.h"
 #include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
@@ -72,7 +73,7 @@ using results::with_separators;
 struct ExperimentOptions {
   std::filesystem::path program;                   ///< the `ccdt` that is run
   std::filesystem::path folder;                    ///< models, meshes and records go here; exists
-  int runs = 5;                                    ///< counted runs per case, after one warm-up run
+  int runs = bench::fewest_for_interval;           ///< counted runs per timed case, after one warm-up run
   double tetrahedra = 100000;                      ///< approximate number of tetrahedra per model
   std::string scale = "paper";                     ///< as the user said it
   std::string command = {};                        ///< the command that repeats the experiment
@@ -124,6 +125,12 @@ inline constexpr double usual_precision = 0.05;
 /// \param group  the cases with which it takes turns
 cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single,
                        double until = usual_precision, cases::SecondsOf seconds = whole_seconds);
+
+/// Can a case be timed within the budget, by the seconds of its first run? A failed one cannot.
+bool is_short(const ExperimentOptions& options, const cases::MeasuredCase& first);
+
+/// The same as a definition.
+std::string short_case_words(const ExperimentOptions& options);
 
 /// A definition: how often timed cases are run.
 std::string repetition_words(const ExperimentOptions& options, double until = usual_precision);

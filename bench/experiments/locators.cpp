@@ -29,7 +29,7 @@ const std::vector<std::string> definitions = {
     "Graded: a cube with squares on its faces that shrink toward a corner.",
     "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
     "Edge ratio: the longest edge of the surface over the shortest.",
-    "Ratios are of medians. A claim holds if the whole interval is on the right side of 1."};
+    "A ratio is the median of the ratios in rounds. A claim holds if the whole interval is on the right side of 1."};
 
 using Group = std::span<const LocatorsRow>;  ///< grid, octree, cavity
 

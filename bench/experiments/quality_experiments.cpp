@@ -245,7 +245,6 @@ StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::strin
       "ccdt: --improve all, unless marked unimproved; tetgen: -pYq1.414/10a.",
       "cgal-mesh3: with perturbation and exudation.",
       "gmsh-hxt: Mesh.Algorithm3D=10 and Mesh.Optimize=1; its seconds come from its log.",
-      "Long cases have at most three counted runs.",
   };
   std::vector<std::string> others = described_meshers(options);
   for (const char* name : {"gmsh-hxt", "cgal-mesh3", "tetgen"})

@@ -105,7 +105,7 @@ std::vector<double> edge_lengths_of(const SourceStudy& study, const EvenSurface&
   return lengths;
 }
 
-/// Runs every variant once, then as often as its time needs.
+/// Runs every variant once, and those that are short as often as an interval of their time needs.
 std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const EvenSurface& surface,
                                               const std::vector<double>& edge_lengths) {
   std::vector<cases::Case> all;
@@ -114,7 +114,7 @@ std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const Ev
   std::vector<cases::MeasuredCase> measured = study.runner.run(all);
   if (study.plan.once) return measured;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    all[i] = timed_case(study.options, study.title, all[i], 0);
+    if (is_short(study.options, measured[i])) all[i] = timed_case(study.options, study.title, all[i], 0);
     const bool is_small = count_of(measured[i]).value_or(most_kept_tetrahedra + 1) <= most_kept_tetrahedra;
     if (study.plan.keeps_meshes && is_small) all[i].mesh_ending = ".vtu";
   }
@@ -151,12 +151,6 @@ RowColumns<QualityRow> label_columns(const StudyPlan& plan) {
   for (std::size_t i = 0; i < plan.labels.size(); ++i)
     columns.push_back({plan.labels[i], [i](const QualityRow& row) { return row.labels.at(i); }});
   return columns;
-}
-
-/// A single run has no interval.
-Cell seconds_cell(const QualityRow& row) {
-  const auto seconds = seconds_of(row);
-  return seconds && row.measured.counted.size() == 1 ? Cell(seconds->value) : as_cell(seconds);
 }
 
 Cell improve_seconds_cell(const QualityRow& row) {
@@ -196,7 +190,7 @@ ResultTable quality_table(const StudyPlan& plan, std::span<const QualityRow> row
               [](const QualityRow& row) { return cell_if(row.ok(), row.edge_length); }},
              {figure_column("comparable", "comparable number of tetrahedra"),
               [](const QualityRow& row) { return cell_if(row.ok(), row.is_comparable()); }},
-             {time_column("seconds", "", "s"), seconds_cell},
+             seconds_column(),
              {time_column("improve_seconds", "of these, improvement", "s"), improve_seconds_cell},
              {time_column("speed", "million tetrahedra per second"), speed_cell},
              reason_column()});
@@ -294,6 +288,7 @@ ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& 
     }
   }
   ExperimentResult result = study_result(plan, rows, surfaces);
+  if (!plan.once) result.definitions.push_back(short_case_words(options));
   for (const std::string& problem : problems) add_problem(result, problem);
   for (const QualityRow& row : rows)
     if (row.ok() && !row.measured.asked.mesh_ending.empty())

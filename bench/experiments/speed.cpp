@@ -100,6 +100,13 @@ RowColumns<SpeedRow> stage_columns() {
   return columns;
 }
 
+/// A decreasing function of an estimate.
+template <class Function>
+Estimate decreasing(const Estimate& e, Function function) {
+  if (!e.has_interval()) return bench::without_interval(function(e.value));
+  return {function(e.value), function(e.high), function(e.low)};
+}
+
 /// The speedup on several threads.
 struct ScalingRow {
   SpeedRow several, one;
@@ -109,9 +116,8 @@ struct ScalingRow {
     const double n = several.threads;
     return std::clamp((1 / s - 1 / n) / (1 - 1 / n), 0.0, 1.0);
   }
-  /// The larger the speedup, the smaller the share.
   Estimate serial() const {
-    return {serial_share(speedup.value), serial_share(speedup.high), serial_share(speedup.low)};
+    return decreasing(speedup, [this](double s) { return serial_share(s); });
   }
 };
 std::vector<std::string> runs_of(const ScalingRow& row) {
@@ -130,10 +136,8 @@ RowColumns<ScalingRow> scaling_columns() {
           {label_column("threads"), [](const ScalingRow& row) { return std::to_string(row.several.threads); }},
           {time_column("speedup"), &ScalingRow::speedup},
           {time_column("serial_share", "serial share"), &ScalingRow::serial},
-          {time_column("projection", "projected speedup on 64 threads"), [](const ScalingRow& row) {
-             const Estimate s = row.serial();
-             return Estimate{amdahl(s.value), amdahl(s.high), amdahl(s.low)};
-           }}};
+          {time_column("projection", "projected speedup on 64 threads"),
+           [](const ScalingRow& row) { return decreasing(row.serial(), amdahl); }}};
 }
 
 /// The row of ccdt on one thread in the same task; null if there is none.

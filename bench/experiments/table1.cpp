@@ -71,7 +71,7 @@ const std::vector<std::string> definitions = {
     "Also not included: finish, which restores the units of the coordinates and checks the result.",
     "Paper's grid: the front finds its vertices with the uniform grid of the paper's section 4 (--locator grid).",
     "All other strategies are the defaults; the records of the runs list them.",
-    "with check / Delaunay is computed within each run; the other ratios are ratios of medians.",
+    "A ratio is a median: with check / Delaunay of the ratios within each run, the others of those in each round.",
     "CGAL Delaunay, same vertices: all vertices of our mesh.",
     "TetGen CDT, same vertices: switch p, the input with our interior vertices.",
     "Its own vertices: refined to the edge length of the surface, by TetGen with pYq1.414a, which keeps the surface.",
@@ -162,13 +162,12 @@ std::vector<TimedRow> timed_rows(const Table1Model& model) {
   return rows;
 }
 
-/// The ratio within each run if both times come from it, so that changes of the machine's speed cancel out; otherwise
-/// the ratio of the medians.
+/// The median of the ratios within each run if both times come from it, otherwise of those in each round.
 std::optional<Estimate> divided(const TimedRow& above, const TimedRow& below) {
   if (above.timed.way != below.timed.way) return ratio_of(above, below);
   if (!above.ok()) return {};
   const auto in_a_run = [&](const StageSeconds& s) { return above.seconds(s) / below.seconds(s); };
-  return bench::median_estimate(samples_of(above.measured, in_a_run));
+  return median_of(above.measured, in_a_run);
 }
 
 std::vector<RatioRow> ratio_rows(const std::vector<TimedRow>& rows) {

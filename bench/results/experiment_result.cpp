@@ -69,6 +69,7 @@ Cell cell_from(const bench::Json& json) {
   if (json.is_null()) return {};
   if (json.is_string()) return json.get<std::string>();
   if (json.is_number()) return json.get<double>();
+  if (json.at("low").is_null()) return bench::without_interval(json.at("value"));
   return bench::Estimate{json.at("value"), json.at("low"), json.at("high")};
 }
 

@@ -35,6 +35,7 @@ std::string rounded(double value, int digits) {
 }
 
 std::string with_interval(const bench::Estimate& e) {
+  if (!e.has_interval()) return rounded(e.value);
   // Three digits of the value, or two of the interval's width if that takes more, but not more than five of the value.
   const int decimals =
       std::min(std::max(decimals_for(e.value, 3), decimals_for(e.high - e.low, 2)), decimals_for(e.value, 5));

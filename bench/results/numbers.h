@@ -12,7 +12,8 @@ namespace ccdt::results {
 /// A number with this many significant digits, without an exponent if possible.
 std::string rounded(double value, int digits = 3);
 
-/// An estimate with its interval, with as many digits as needed to tell them apart: "1.02 [1.01, 1.03]".
+/// An estimate with its interval, with as many digits as needed to tell them apart: "1.02 [1.01, 1.03]"; without
+/// one "1.02".
 std::string with_interval(const bench::Estimate& estimate);
 
 /// 0.0312 as "3.12%".

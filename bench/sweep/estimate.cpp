@@ -94,10 +94,9 @@ void set_from(CaseEstimate& estimate, const Neighbors& neighbors) {
 }
 
 void count_runs(CaseEstimate& estimate, const cases::MeasuredCase& measured) {
-  if (!cases::needs_run(measured)) return;
-  const cases::Repetitions& repetitions = measured.asked.repetitions;
-  estimate.runs = std::max(1, repetitions.warm_up + repetitions.at_least - measured.runs);
-  estimate.most_runs = std::max(estimate.runs, repetitions.warm_up + repetitions.at_most - measured.runs);
+  const cases::RunsLeft left = cases::runs_left(measured);
+  estimate.runs = left.least;
+  estimate.most_runs = left.most;
 }
 
 /// "2 h 10 min"
@@ -176,7 +175,8 @@ SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::Me
 }
 
 bench::Json to_json(const SweepEstimate& estimate) {
-  return {{"cases", estimate.cases},
+  return {{"schema", "ccdt.estimate/1"},
+          {"cases", estimate.cases},
           {"runs", estimate.runs},
           {"missing_cases", estimate.missing_cases},
           {"missing_runs", estimate.missing_runs},

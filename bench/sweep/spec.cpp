@@ -9,6 +9,7 @@
 
 #include "baselines/json_schema.h"
 #include "baselines/mesher.h"
+#include "bench/median_interval.h"
 #include "bench/sweep/sweep_schema.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
@@ -197,7 +198,7 @@ cases::Repetitions repetitions_of(const Reader& reader) {
     repetitions.at_least = repetitions.at_most = json.get<int>();
   } else {
     repetitions.until = json.at("until").get<double>();
-    repetitions.at_least = json.value("at_least", 5);
+    repetitions.at_least = json.value("at_least", bench::fewest_for_interval);
     repetitions.at_most = json.value("at_most", std::max(60, repetitions.at_least));
     if (repetitions.at_most < repetitions.at_least)
       reader.fail(Pointer() / "repetitions" / "at_most", "this is fewer than at_least", "write a greater number");

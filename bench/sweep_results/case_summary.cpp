@@ -7,6 +7,7 @@
 #include <span>
 
 #include "bench/in_parallel.h"
+#include "bench/median_interval.h"
 #include "bench/results/numbers.h"
 
 namespace ccdt::sweep_results {
@@ -34,11 +35,8 @@ void add_times(CaseSummary& summary) {
     summary.peak_bytes = std::max(summary.peak_bytes, number_of(*run, "peak_rss_bytes").value_or(0));
   }
   if (samples.empty()) return;
-  if (samples.size() == 1) {
-    summary.seconds = bench::Estimate{samples[0], samples[0], samples[0]};
-    return;
-  }
-  summary.seconds = bench::median_estimate(samples);
+  summary.seconds = bench::median_estimate(samples, cases::looks_of(summary.of->wanted));
+  if (!summary.seconds->has_interval()) return;
   const double wanted = summary.of->wanted.until;
   const double most = wanted > 0 ? std::min(wanted, widest_spread) : widest_spread;
   const double spread = bench::relative_spread(*summary.seconds);

@@ -1,13 +1,12 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <random>
 #include <set>
 #include <unordered_map>
 
+#include "bench/median_interval.h"
 #include "bench/results/numbers.h"
-#include "bench/statistics.h"
 #include "bench/sweep_results/sweep_tables.h"
 
 namespace ccdt::sweep_results {
@@ -61,13 +60,6 @@ void thin_out(ResultTable& pairs) {
   std::erase_if(pairs.rows, [&](const ResultRow&) { return static_cast<double>(random() >> 11) * 0x1p-53 > share; });
 }
 
-/// The median with the interval between two order statistics (the sign test's): there may be very many.
-bench::Estimate middle_of(std::span<const double> ratios) {
-  const double reach = 0.98 / std::sqrt(static_cast<double>(ratios.size()));
-  return {bench::median(ratios), bench::quantile(ratios, std::max(0.0, 0.5 - reach)),
-          bench::quantile(ratios, std::min(1.0, 0.5 + reach))};
-}
-
 void add_pair(const CaseSummary& first, const CaseSummary& second, ResultTable& pairs) {
   ResultRow& row = pairs.rows.emplace_back(ResultRow{label_cells(first), first.runs});
   row.runs.insert(row.runs.end(), second.runs.begin(), second.runs.end());
@@ -116,9 +108,10 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
   thin_out(tables.pairs);
   for (const auto& [other, c] : counts) {
     const auto faster = static_cast<std::uint64_t>(std::ranges::count_if(c.ratios, [](double r) { return r < 1; }));
-    tables.summary.rows.push_back({{tables.reference, other, cell_of(std::uint64_t{c.ratios.size()}),
-                                    cell_of(c.first_alone), cell_of(c.second_alone), cell_of(c.neither),
-                                    cell_of(faster), c.ratios.empty() ? Cell() : Cell(middle_of(c.ratios))}});
+    tables.summary.rows.push_back(
+        {{tables.reference, other, cell_of(std::uint64_t{c.ratios.size()}), cell_of(c.first_alone),
+          cell_of(c.second_alone), cell_of(c.neither), cell_of(faster),
+          c.ratios.empty() ? Cell() : Cell(bench::median_estimate(c.ratios))}});
     if (c.high > 0)
       for (const double end : {c.low, c.high})
         tables.diagonals.rows.push_back({{tables.reference + " / " + other, end}});

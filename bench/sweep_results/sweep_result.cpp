@@ -145,7 +145,9 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
   judge(sweep, cases, result);
   result.definitions = {
       "A case is one mesher on one input with one set of options.",
-      "Seconds: the median of the counted runs of a case, of meshing alone, with the interval of a bootstrap.",
+      "Seconds: the median of the counted runs of a case, of meshing alone.",
+      "Intervals are between order statistics and cover the median in 95% of all cases; of fewer than six runs "
+      "there is none.",
       "spread: the half-width of the interval is more than requested, or more than 10% of the median.",
       "r is 1 for the regular tetrahedron and larger for all others.",
       "If there are very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",

@@ -58,6 +58,17 @@ TEST(ExperimentResult, WritesWholeNumbersAsSuchAndInfiniteOnesAsNull) {
   EXPECT_TRUE(json["tables"][0]["rows"][1]["values"]["count"].is_null());
 }
 
+TEST(ExperimentResult, WritesAndReadsAnEstimateWithoutAnInterval) {
+  results::ExperimentResult result = example();
+  result.tables[0].rows[0].cells[2] = bench::without_interval(1.5);
+  const std::string text = results::to_json(result);
+  const auto seconds = nlohmann::json::parse(text)["tables"][0]["rows"][0]["values"]["seconds"];
+  EXPECT_EQ(seconds["value"], 1.5);
+  EXPECT_TRUE(seconds["low"].is_null() && seconds["high"].is_null());
+  const results::ExperimentResult read = results::experiment_result_from_json(text);
+  EXPECT_EQ(read.tables[0].rows[0].cells[2], results::Cell(bench::without_interval(1.5)));
+}
+
 TEST(ExperimentResult, RefusesOtherJson) {
   EXPECT_THROW(results::experiment_result_from_json("{"), InputError);
   EXPECT_THROW(results::experiment_result_from_json("[]"), InputError);

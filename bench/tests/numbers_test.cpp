@@ -21,6 +21,7 @@ TEST(Numbers, IntervalsHaveTheDigitsThatTellThemApart) {
   EXPECT_EQ(results::with_interval({1.0188, 1.0151, 1.0223}), "1.0188 [1.0151, 1.0223]");
   EXPECT_EQ(results::with_interval({23.4, 20.1, 27.9}), "23.4 [20.1, 27.9]");
   EXPECT_EQ(results::with_interval({5, 5, 5}), "5.00 [5.00, 5.00]");
+  EXPECT_EQ(results::with_interval(bench::without_interval(23.4)), "23.4");
 }
 
 TEST(Numbers, LargeCountsHaveSeparators) {

@@ -173,23 +173,50 @@ TEST_F(RunnerTest, RunsEqualCasesOnce) {
 }
 
 TEST_F(RunnerTest, RepeatsUntilTheIntervalIsNarrow) {
-  constexpr Repetitions until = {.at_least = 3, .at_most = 20, .until = 0.1};
+  constexpr Repetitions until = {.at_least = 6, .at_most = 20, .until = 0.1};
   const std::vector all = {case_of("even", "1\n", until), case_of("wide", "1\n2\n3\n", until)};
   Runner one = runner();
   const std::vector<MeasuredCase> measured = one.run(all);
   EXPECT_EQ(one.uncertain_cases(), std::set<std::string>{"wide"});
-  EXPECT_EQ(measured[0].counted.size(), 3);
-  EXPECT_GT(measured[1].counted.size(), 3);
-  EXPECT_GT(spread_of(samples_of(measured[1], &StageSeconds::mesh)), 0.1);
+  EXPECT_EQ(measured[0].counted.size(), 6);
   EXPECT_EQ(measured[1].counted.size(), 20);
+  EXPECT_GT(bench::relative_spread(median_of(measured[1], &StageSeconds::mesh)), 0.1);
 }
 
-TEST_F(RunnerTest, SpendsNoMoreThanTheBudgetOnLongRuns) {
-  const Repetitions budget = {.at_least = 9, .at_most = 9, .budget_seconds = 20};
-  const std::vector all = {case_of("short", "1\n", budget), case_of("long", "100\n", budget)};
+TEST_F(RunnerTest, CountsSixRunsBeforeItStops) {
+  const MeasuredCase measured = runner().run(case_of("a", "1\n", {.at_least = 2, .at_most = 20, .until = 0.1}));
+  EXPECT_EQ(measured.counted.size(), 6);
+}
+
+TEST_F(RunnerTest, SpendsNoMoreThanTheBudgetOnMoreThanTheLeastNumberOfRuns) {
+  const Repetitions budget = {.at_least = 6, .at_most = 100, .until = 0.1, .budget_seconds = 40};
+  const std::vector all = {case_of("short", "1\n2\n", budget), case_of("long", "10\n20\n", budget)};
   const std::vector<MeasuredCase> measured = runner().run(all);
-  EXPECT_EQ(measured[0].counted.size(), 9);
-  EXPECT_EQ(measured[1].counted.size(), 3);
+  EXPECT_EQ(measured[0].counted.size(), 18) << "54 runs would take 81 s";
+  EXPECT_EQ(measured[1].counted.size(), 6);
+}
+
+TEST(RunsLeft, AreThoseUntilTheNextLookAndTheLast) {
+  MeasuredCase measured;
+  measured.asked.repetitions = {.warm_up = 1, .at_least = 6, .at_most = 60, .until = 0.01};
+  RunRecord record;
+  const auto expect_left = [&](int least, int most) {
+    EXPECT_EQ(runs_left(measured).least, least) << measured.runs;
+    EXPECT_EQ(runs_left(measured).most, most) << measured.runs;
+  };
+  const auto run_until = [&](int runs) {
+    while (measured.runs < runs) {
+      record.seconds.mesh = 1 + measured.runs % 3;
+      add_run(measured, record);
+    }
+  };
+  expect_left(7, 61);
+  run_until(2);
+  expect_left(5, 59);
+  run_until(7);
+  expect_left(12, 54);
+  run_until(61);
+  expect_left(0, 0);
 }
 
 TEST_F(RunnerTest, SeveralJobsMakeTheSameRecords) {

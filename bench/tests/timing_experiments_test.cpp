@@ -167,12 +167,18 @@ TEST(Fig8, IsNotGoodWhereARunOfOursFailed) {
   }
 }
 
-/// Grid, octree and cavity take these seconds in each run.
+/// Three values are too few for an interval.
+std::vector<double> twice(std::vector<double> values) {
+  values.insert(values.end(), values.begin(), values.end());
+  return values;
+}
+
+/// The octree takes these seconds, twice each; grid and cavity take 1.
 std::vector<experiments::LocatorsRow> locators(experiments::SurfaceKind kind, const std::vector<double>& octree) {
   std::vector<experiments::LocatorsRow> rows;
   for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
     std::vector<StageSeconds> seconds;
-    for (const double s : octree) seconds.push_back(stages(1, locator == LocatorKind::octree ? s : 1));
+    for (const double s : twice(octree)) seconds.push_back(stages(1, locator == LocatorKind::octree ? s : 1));
     rows.push_back(
         {{measured_case("ccdt", seconds, counts_with(1000)), &StageSeconds::front}, "part", kind, false, 181, locator});
   }
@@ -203,8 +209,8 @@ experiments::SpeedRow speed_row(const std::string& mesher, unsigned threads, dou
                                 std::uint64_t tetrahedra = 1000, bool is_weak = false) {
   MeshCounts counts;
   counts.tetrahedra = tetrahedra;
-  const std::vector<StageSeconds> three(3, stages(seconds / 2, 0, seconds));
-  return {{measured_case(mesher, three, counts)}, "end to end", "part", threads, is_weak};
+  const std::vector<StageSeconds> six(6, stages(seconds / 2, 0, seconds));
+  return {{measured_case(mesher, six, counts)}, "end to end", "part", threads, is_weak};
 }
 
 TEST(Speed, ComparesAllWithCcdtOnOneThreadAndFindsWhatIsSerial) {
@@ -242,14 +248,15 @@ TEST(Locators, GiveAFailedRowItsReason) {
   EXPECT_TRUE(result.findings.empty());
 }
 
-/// The check takes this share of Delaunay's time in each run, which has a median of 2 s; the front takes this many
-/// seconds.
+/// The check takes this share of Delaunay's time in the runs, which has a median of 2 s; the front takes this many
+/// seconds. There are two runs of each.
 experiments::Table1Model table1_model(const std::vector<double>& check = {0.1, 0.1, 0.1}, double front = 14,
                                       const std::vector<double>& delaunay = {2, 2, 2}) {
   experiments::Table1Model model{"piston", 2.5};
+  const std::vector<double> checks = twice(check), delaunays = twice(delaunay);
   std::vector<StageSeconds> with, without;
-  for (std::size_t i = 0; i < check.size(); ++i) {
-    with.push_back(stages(delaunay[i], check[i] * delaunay[i], 9));
+  for (std::size_t i = 0; i < checks.size(); ++i) {
+    with.push_back(stages(delaunays[i], checks[i] * delaunays[i], 9));
     without.push_back(stages(2, front, 20));
   }
   model.cases["with_check"] = measured_case("ccdt", with, counts_with(1000));
@@ -286,8 +293,22 @@ TEST(Table1, DividesWithinARunWhereBothAreOfIt) {
   const auto check = std::get<bench::Estimate>(results::cell(ratios, ratios.rows[0], "value"));
   EXPECT_DOUBLE_EQ(check.low, 1.1);
   EXPECT_DOUBLE_EQ(check.high, 1.1);
+  // Without the check 16 s, in rounds with 1, 2 and 3 s.
   EXPECT_DOUBLE_EQ(numbers(result, "ratios", "value")[1], 8);
   EXPECT_NEAR(numbers(result, "ratios", "paper_value")[0], 26.01 / 25.53, 1e-12);
+}
+
+TEST(Table1, DecidesNothingWithFewerThanSixRuns) {
+  experiments::Table1Model model = table1_model();
+  for (auto& [way, measured] : model.cases) measured.counted.pop_back();
+  const auto result = experiments::table1_result({&model, 1});
+  const results::ResultTable& ratios = table(result, "ratios");
+  for (const results::ResultRow& row : ratios.rows)
+    EXPECT_FALSE(std::get<bench::Estimate>(results::cell(ratios, row, "value")).has_interval());
+  EXPECT_EQ(numbers(result, "ratios", "value")[1], 8) << "the value is shown";
+  const auto decided = experiments::table1_result(std::array{table1_model()}).findings;
+  EXPECT_NE(result.findings.front().substr(result.findings.front().rfind(':')),
+            decided.front().substr(decided.front().rfind(':')));
 }
 
 TEST(Table1, HasARowForAllThatIsTimedOfARun) {
@@ -323,6 +344,23 @@ TEST(Table1, ShowsFailuresAsRows) {
   EXPECT_FALSE(result.is_good);
 }
 
+TEST(TimedCases, AreThoseOfWhichAllRunsAreWithinTheBudget) {
+  experiments::ExperimentOptions options;
+  options.tetrahedra = 20000;
+  const double budget = experiments::timed_case(options, "", {}).repetitions.budget_seconds;
+  const auto is_short = [&](double seconds, bool fails = false) {
+    cases::MeasuredCase measured;
+    bench::RunRecord record;
+    record.seconds.mesh = seconds;
+    add_run(measured, record);
+    if (fails) fail(measured);
+    return experiments::is_short(options, measured);
+  };
+  EXPECT_TRUE(is_short(0.99 * budget / options.runs));
+  EXPECT_FALSE(is_short(1.01 * budget / options.runs));
+  EXPECT_FALSE(is_short(0, true));
+}
+
 TEST(TimedCases, AreRepeatedUntilTheyAreKnown) {
   experiments::ExperimentOptions options;
   options.tetrahedra = 20000;
@@ -334,6 +372,7 @@ TEST(TimedCases, AreRepeatedUntilTheyAreKnown) {
   EXPECT_EQ(timed.repetitions.at_least, options.runs);
   EXPECT_GE(timed.repetitions.at_most, 60);
   EXPECT_EQ(timed.repetitions.until, 0.02);
+  EXPECT_GE(options.runs, bench::fewest_for_interval);
   EXPECT_EQ(timed.group, "group");
 }
 

@@ -12,7 +12,7 @@ struct MadeUpSweep {
   int files = 0;              ///< more inputs, of a user
   std::vector<std::string> lattices = {"fcc", "bcc"}, locators = {"cavity", "octree"};  ///< options of ccdt
   std::vector<std::string> others = {"tetgen", "gmsh"};                                 ///< meshers without options
-  int runs = 5;           ///< counted runs per case, after one warm-up run
+  int runs = 6;           ///< counted runs per case, after one warm-up run
   double failing = 0.05;  ///< the share of cases that fail; 0: none
   double slowness = 1;    ///< factor of all times
 };

@@ -80,7 +80,7 @@ TEST_F(SweepReport, HasARowForEachCaseThatLeadsToItsRuns) {
   const ResultTable& cases = table(made, "cases");
   ASSERT_EQ(cases.rows.size(), 12u * 6u);
   for (const auto& row : cases.rows) {
-    EXPECT_EQ(row.runs.size(), results::text_in(cases, row, "status") == "ok" ? 5u : 1u);
+    EXPECT_EQ(row.runs.size(), results::text_in(cases, row, "status") == "ok" ? 6u : 1u);
     for (const std::string& run : row.runs) EXPECT_TRUE(made.runs.contains(run)) << run;
   }
   const std::string& command = made.runs.at(cases.rows[0].runs[0]).command;
@@ -133,7 +133,7 @@ TEST_F(SweepReport, KnowsWhichStrategiesMustGiveTheSameMesh) {
   const ResultTable same = table(report(), "same_mesh");
   ASSERT_EQ(same.rows.size(), 12u * 2u) << "one for each input and lattice";
   for (const auto& row : same.rows) EXPECT_EQ(results::text_in(same, row, "same"), "yes");
-  for (int number = 0; number <= 5; ++number) {
+  for (int number = 0; number <= 6; ++number) {
     Json run = read(record(number));
     run["mesh_fingerprint"] = "another";
     write(run, record(number));
@@ -147,7 +147,7 @@ TEST_F(SweepReport, KnowsWhichStrategiesMustGiveTheSameMesh) {
 }
 
 TEST_F(SweepReport, SaysWhichTimesSpreadTooWide) {
-  for (int number = 1; number <= 5; ++number) {
+  for (int number = 1; number <= 6; ++number) {
     Json run = read(record(number));
     run["seconds"]["mesh"] = number;
     write(run, record(number));
@@ -155,11 +155,24 @@ TEST_F(SweepReport, SaysWhichTimesSpreadTooWide) {
   const reports::Report made = report();
   const ResultTable& cases = table(made, "cases");
   EXPECT_NE(results::text_in(cases, cases.rows[0], "spread"), "");
-  EXPECT_EQ(results::number_in(cases, cases.rows[0], "seconds"), 3) << "the warm-up run does not count";
+  EXPECT_EQ(results::number_in(cases, cases.rows[0], "seconds"), 3.5) << "the warm-up run does not count";
+}
+
+TEST_F(SweepReport, ShowsNoIntervalOfFewerThanSixRuns) {
+  std::filesystem::remove(folder() / record(6));
+  const reports::Report made = report();
+  const ResultTable& cases = table(made, "cases");
+  const auto seconds = [&](std::size_t row) {
+    return std::get<bench::Estimate>(results::cell(cases, cases.rows[row], "seconds"));
+  };
+  EXPECT_FALSE(seconds(0).has_interval());
+  EXPECT_GT(seconds(0).value, 0);
+  EXPECT_EQ(results::text_in(cases, cases.rows[0], "spread"), "");
+  EXPECT_TRUE(seconds(1).has_interval());
 }
 
 TEST_F(SweepReport, TakesTornRecordsForMissingOnes) {
-  for (int number = 0; number <= 5; ++number) std::filesystem::resize_file(folder() / record(number), 100);
+  for (int number = 0; number <= 6; ++number) std::filesystem::resize_file(folder() / record(number), 100);
   const reports::Report made = report();
   EXPECT_EQ(results::text_in(table(made, "cases"), table(made, "cases").rows[0], "status"), "not run");
   EXPECT_EQ(made.runs.count(record(1)), 0u);

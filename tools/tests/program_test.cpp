@@ -43,7 +43,7 @@ TEST_F(Program, WrongUsageExitsWithTwoAndWritesNothing) {
         "mesh cube.off -o a.vtu --edge-length -1", "mesh cube.off -o a.vtu --edge-length nan",
         "mesh cube.off -o a.vtu --edge-length two", "mesh cube.off -o a.vtu --grading -1",
         "mesh cube.off -o a.vtu --unknown", "mesh cube.off another.off -o a.vtu", "model teapot -o a.off",
-        "verify cube.off", "reproduce table1", "reproduce table9 -o d", "reproduce -o d --runs 2"}) {
+        "verify cube.off", "reproduce table1", "reproduce table9 -o d", "reproduce -o d --runs 5"}) {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err, "") << arguments;

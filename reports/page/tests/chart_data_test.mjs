@@ -15,13 +15,14 @@ const times = {
     { values: { model: "piston", seconds: { value: 2, low: 1, high: 3 }, vertices: 10 }, runs: [] },
     { values: { model: "bracket", seconds: 4, vertices: 20 }, runs: [] },
     { values: { model: "pole", seconds: null, vertices: null }, runs: [] },
+    { values: { model: "cube", seconds: { value: 5, low: null, high: null }, vertices: 30 }, runs: [] },
   ],
 };
 
 test("a measured time is an estimate in the data of a chart, whatever it was in the table", () => {
   assert.deepEqual(
     tableData(times).map((datum) => datum.seconds),
-    [{ value: 2, low: 1, high: 3 }, { value: 4, low: 4, high: 4 }, null],
+    [{ value: 2, low: 1, high: 3 }, { value: 4, low: 4, high: 4 }, null, { value: 5, low: 5, high: 5 }],
   );
 });
 
@@ -29,7 +30,7 @@ test("data know their rows when a filter has left some out", () => {
   const data = tableData(times, (row) => row.values.model !== "piston");
   assert.deepEqual(
     data.map((datum) => datum._row),
-    [1, 2],
+    [1, 2, 3],
   );
 });
 
@@ -39,10 +40,10 @@ test("a chart has a data set for each of its tables, and one of all", () => {
   assert.deepEqual(
     Object.entries(data).map(([name, rows]) => [name, rows.length]),
     [
-      ["times", 3],
-      ["more", 3],
+      ["times", 4],
+      ["more", 4],
       ["unknown", 0],
-      ["all", 6],
+      ["all", 8],
     ],
   );
 });

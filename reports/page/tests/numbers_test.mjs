@@ -41,6 +41,7 @@ test("an estimate has the digits that its interval deserves", () => {
 
 test("an estimate without width has no interval", () => {
   assert.deepEqual(estimateTexts({ value: 2.5, low: 2.5, high: 2.5 }), { value: "2.500", interval: "" });
+  assert.deepEqual(estimateTexts({ value: 2.5, low: null, high: null }), { value: "2.500", interval: "" });
 });
 
 test("the numbers of a column have as many decimals as each other", () => {

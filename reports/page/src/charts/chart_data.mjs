@@ -4,9 +4,10 @@
  * The data set "all" has those of all tables together, for facets of more than one.
  */
 
-/** @returns {object} the value of a time's cell as an estimate */
+/** @returns {object} the value of a time's cell as an estimate; its interval has no width if there is none */
 function asEstimate(cell) {
-  return typeof cell === "number" ? { value: cell, low: cell, high: cell } : cell;
+  const { value, low, high } = typeof cell === "number" ? { value: cell } : (cell ?? {});
+  return value === undefined ? cell : { value, low: low ?? value, high: high ?? value };
 }
 
 /**

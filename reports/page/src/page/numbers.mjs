@@ -59,7 +59,7 @@ function estimateDecimals({ value, low, high }) {
 
 /**
  * An estimate in two parts.
- * @returns {{value: string, interval: string}}  the interval is empty if it has no width
+ * @returns {{value: string, interval: string}}  the interval is empty if there is none, or if it has no width
  */
 export function estimateTexts(estimate) {
   const decimals = estimateDecimals(estimate);
