@@ -35,10 +35,6 @@ bool holds(ChoiceCondition condition, const InputPlc& input, const MeshOptions& 
   return false;
 }
 
-std::string absolute_folder_of(const Description& description) {
-  return std::filesystem::absolute(description.file).parent_path().lexically_normal().string();
-}
-
 std::string input_name(const Description& description) {
   return std::string(input_stem) + "." + description.input_format;
 }
@@ -50,7 +46,7 @@ std::vector<Placeholder> values_for(const Description& description, const InputP
   std::vector<Placeholder> values = {{"input", input_name(description)},
                                      {"stem", input_stem},
                                      {"folder", folder},
-                                     {"here", absolute_folder_of(description)},
+                                     {"here", folder_of(description)},
                                      {"edge_length", digits(edge_length)},
                                      {"max_volume", digits(largest_tetrahedron_volume(edge_length))}};
   std::vector<Placeholder> chosen;
@@ -71,7 +67,7 @@ std::vector<std::string> fill_all(const std::vector<std::string>& words, const s
 /// The program of a command: relative to the folder of the description if it has a slash, otherwise on PATH.
 std::optional<std::filesystem::path> program_of(const Description& description, const std::string& name) {
   if (name.find('/') == std::string::npos) return find_on_path(name);
-  const auto file = std::filesystem::path(absolute_folder_of(description)) / name;
+  const auto file = std::filesystem::path(folder_of(description)) / name;
   return std::filesystem::exists(file) ? std::optional(file) : std::nullopt;
 }
 
@@ -196,20 +192,11 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
 
 std::string ask_version(const Description& description) {
   if (description.version_command.empty()) return unknown_version;
-  std::vector<std::string> command = fill_all(description.version_command, {{"here", absolute_folder_of(description)}});
+  std::vector<std::string> command = fill_all(description.version_command, {{"here", folder_of(description)}});
   const auto program = program_of(description, command[0]);
   if (!program) return unknown_version;
   command[0] = program->string();
   return version_of_program(command, description.version_pattern);
-}
-
-/// All texts of a description that reach the program.
-std::vector<std::string> texts_of(const Description& description) {
-  std::vector<std::string> texts = description.command;
-  texts.push_back(description.output);
-  for (const auto& [name, text] : description.files) texts.push_back(text);
-  for (const auto& [name, value] : description.environment) texts.push_back(value);
-  return texts;
 }
 
 /// The options that change the texts.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 
 #include "baselines/json_schema.h"
 #include "baselines/mesher_schema.h"
@@ -104,6 +105,22 @@ std::string_view next_name(std::string_view text, std::size_t from) {
   return text.substr(text.size());
 }
 
+/// Adds the paths of existing files among the words of a text.
+void add_files_in(std::string_view text, std::set<std::filesystem::path>& files) {
+  constexpr std::string_view between_words = " \t\n\r\"'`;:=,|&<>()";
+  const auto add = [&](std::string_view word) {
+    std::error_code error;
+    const std::filesystem::path path(word);
+    if (path.is_absolute() && std::filesystem::is_regular_file(path, error)) files.insert(path.lexically_normal());
+  };
+  add(text);  // a whole argument may contain blanks
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(between_words), text.size());
+    add(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+}
+
 }  // namespace
 
 MesherDescription read_mesher_description(const std::filesystem::path& file) {
@@ -111,6 +128,27 @@ MesherDescription read_mesher_description(const std::filesystem::path& file) {
   const OrderedJson json = read_user_file(file, description_file);
   check_all_placeholders(json, name);
   return description_from(json, name);
+}
+
+std::string folder_of(const MesherDescription& description) {
+  return std::filesystem::absolute(description.file).parent_path().lexically_normal().string();
+}
+
+std::vector<std::string> texts_of(const MesherDescription& description) {
+  std::vector<std::string> texts = description.command;
+  texts.push_back(description.output);
+  for (const auto& [name, text] : description.files) texts.push_back(text);
+  for (const auto& [name, value] : description.environment) texts.push_back(value);
+  return texts;
+}
+
+std::vector<std::filesystem::path> files_named_in(const MesherDescription& description) {
+  std::vector<std::string> texts = texts_of(description);
+  for (const Choice& choice : description.choices) texts.insert(texts.end(), {choice.text_if, choice.text_else});
+  std::set<std::filesystem::path> files;
+  for (const std::string& text : texts)
+    add_files_in(fill_placeholders(text, {{"here", folder_of(description)}}), files);
+  return {files.begin(), files.end()};
 }
 
 std::vector<std::string> placeholders_in(std::string_view text) {

@@ -55,6 +55,16 @@ struct MesherDescription {
 /// \throw InputError  it cannot be read or is wrong; names the file and the JSON pointer
 MesherDescription read_mesher_description(const std::filesystem::path& file);
 
+/// The folder of the description, which {here} stands for.
+std::string folder_of(const MesherDescription& description);
+
+/// All texts of a description that reach the program, with their placeholders; those of `choices` are not among them.
+std::vector<std::string> texts_of(const MesherDescription& description);
+
+/// The files that the texts and choices of a description name by whole paths, which begin with {here} or a slash; those
+/// that exist, by name. The program itself is not among them unless it is named in this way.
+std::vector<std::filesystem::path> files_named_in(const MesherDescription& description);
+
 /// The placeholders in the texts of a description, written in braces: "{input}". A name consists of small letters and
 /// underscores. Anything else in braces stays as it is, so scripts may use braces.
 ///

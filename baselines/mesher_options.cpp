@@ -23,9 +23,6 @@ constexpr auto options_of_lattice =
 /// Options of improvement.
 constexpr auto options_of_improvement =
     std::to_array<std::string_view>({"boundary", "improve-time", "objective", "target-dihedral", "target-r"});
-/// Options whose values stay as the user wrote them.
-constexpr auto names_of_files = std::to_array<std::string_view>({"sizes"});
-
 template <class Names>
 bool is_among(const Names& names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
@@ -36,9 +33,9 @@ std::string text_of(Enum value) {
   return std::string(name_of(value));
 }
 
-/// Normalizes values: equal numbers become equal texts, names get small letters.
+/// Normalizes values: equal numbers become equal texts, names get small letters. Names of files stay as they are.
 std::string canonical(const std::string& name, std::string value) {
-  if (is_among(names_of_files, name)) return value;
+  if (names_a_file(name)) return value;
   double number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   if (error == std::errc() && end == value.data() + value.size()) return digits(number);
@@ -74,6 +71,10 @@ bool matters(const OptionUse& use, const Asked& asked) {
 }
 
 }  // namespace
+
+bool names_a_file(std::string_view option) {
+  return option == "sizes";
+}
 
 const NamedOptions& usual_options() {
   static const NamedOptions all = [] {

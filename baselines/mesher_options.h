@@ -3,6 +3,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "baselines/mesher.h"
@@ -33,6 +34,9 @@ NamedOptions options_of(Strategies strategies, const NamedOptions& given);
 
 /// Replaces the option "strategies", if there is one, by the options that it stands for.
 NamedOptions with_strategies(NamedOptions options);
+
+/// Does the option name a file? Its name is without dashes.
+bool names_a_file(std::string_view option);
 
 /// The options that our engine uses.
 std::vector<OptionUse> options_of_engine();

@@ -135,5 +135,15 @@ TEST_F(Descriptions, OfTheProjectAreRight) {
   }
 }
 
+TEST_F(Descriptions, NameFilesByWholePaths) {
+  const std::string file = with(R"("out.vtu")", R"("out.vtu", "environment": {"LIBRARY": "/nowhere:{here}/library"},
+    "files": {"run.sh": ["sh {here}/run.sh <{here}/missing"]},
+    "choices": {"size": {"if": "edge_length", "then": "--table={here}/table"}})");
+  const auto folder = std::filesystem::path(file).parent_path();
+  for (const char* name : {"library", "run.sh", "table", "mine", "unrelated"}) std::ofstream(folder / name) << name;
+  const auto files = baselines::files_named_in(baselines::read_mesher_description(file));
+  EXPECT_EQ(files, (std::vector<std::filesystem::path>{folder / "library", folder / "run.sh", folder / "table"}));
+}
+
 }  // namespace
 }  // namespace ccdt

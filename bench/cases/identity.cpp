@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "baselines/mesher.h"
+#include "baselines/mesher_description.h"
+#include "baselines/mesher_options.h"
 #include "bench/environment.h"
 #include "bench/results/numbers.h"
 #include "engine/base/errors.h"
+#include "engine/io/file_sets.h"
 #include "engine/io/files.h"
 
 namespace ccdt::cases {
@@ -35,6 +38,18 @@ Identity part_for(const std::string& mesher, const Identity& identity) {
   return part;
 }
 
+/// The fields of the machine and of meshers that the other identity does not have.
+Identity fields_missing_in(const Identity& other, const Identity& identity) {
+  const auto owner_of = [](const std::string& field) { return field.substr(0, field.find('.') + 1); };
+  Identity missing;
+  for (const auto& [field, value] : identity) {
+    const std::string owner = owner_of(field);
+    const auto first = other.lower_bound(owner);
+    if (first == other.end() || !first->first.starts_with(owner)) missing[field] = value;
+  }
+  return missing;
+}
+
 bench::Json read_identities(const std::filesystem::path& file) {
   const io::FileBytes bytes = io::read_whole_file(file);
   bench::Json json = bench::Json::parse(bytes.bytes, nullptr, false);
@@ -44,16 +59,31 @@ bench::Json read_identities(const std::filesystem::path& file) {
   return json;
 }
 
-/// The file of a node list beside a `.poly` that may take its vertices from there.
-std::filesystem::path companion_of(const std::filesystem::path& input) {
-  const std::string ending = io::lower_ending(input);
-  if (ending != ".poly" && ending != ".smesh") return {};
-  return std::filesystem::path(input).replace_extension(".node");
+/// The contents of files, each with the ending that says its format. Where the files are does not matter.
+bench::Json contents_of(const std::vector<std::filesystem::path>& files, FileHashes& hashes) {
+  bench::Json all = bench::Json::array();
+  for (const auto& file : files) all.push_back({io::lower_ending(file), hashes.of(file)});
+  return all;
 }
 
-bool is_file(const std::filesystem::path& path) {
-  std::error_code error;
-  return !path.empty() && std::filesystem::is_regular_file(path, error);
+/// The words of the options, with the contents of files in place of their names.
+bench::Json options_json(const std::vector<std::string>& words, FileHashes& hashes) {
+  bench::Json all = bench::Json::array();
+  std::string_view before;
+  for (const std::string& word : words) {
+    const bool is_file = before.starts_with("--") && baselines::names_a_file(before.substr(2));
+    all.push_back(is_file ? contents_of(io::files_of_sizes(word), hashes) : bench::Json(word));
+    before = word;
+  }
+  return all;
+}
+
+/// What a description of a mesher says: its own content, and that of the files that it names.
+void add_description(const baselines::Mesher& mesher, FileHashes& hashes, Identity& identity) {
+  if (mesher.description.empty()) return;
+  identity[mesher.name + ".description"] = hashes.of(mesher.description);
+  for (const auto& file : baselines::files_named_in(baselines::read_mesher_description(mesher.description)))
+    if (file != mesher.program) identity[mesher.name + ".file " + file.filename().string()] += hashes.of(file);
 }
 
 }  // namespace
@@ -66,7 +96,7 @@ Identity identity_of(const std::vector<std::string>& meshers, const std::filesys
     const baselines::Mesher& mesher = baselines::mesher(name_or_file);
     identity[mesher.name + ".version"] = baselines::version_of(mesher);
     identity[mesher.name + ".binary"] = hashes.of(mesher.program.empty() ? program : mesher.program);
-    if (!mesher.description.empty()) identity[mesher.name + ".description"] = hashes.of(mesher.description);
+    add_description(mesher, hashes, identity);
   }
   return identity;
 }
@@ -91,7 +121,7 @@ std::vector<Identity> accepted_identities(const std::filesystem::path& file, con
   const auto mixed = json.value(mixed_member, std::vector<Identity>());
   const std::vector<std::string> changes = differences(then, now);
   Identity all = now;
-  all.insert(then.begin(), then.end());  // of meshers that are not used now
+  all.merge(fields_missing_in(now, then));  // of meshers that are not used now
   std::vector<Identity> accepted = {all};
   if (!changes.empty()) {
     const bool is_known =
@@ -126,13 +156,10 @@ const std::string& FileHashes::of(const std::filesystem::path& file) {
 
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes) {
   const std::string name = baselines::mesher(asked.mesher).name;
-  bench::Json what = {{"input", hashes.of(asked.input)},
+  bench::Json what = {{"input", contents_of(io::files_of_plc(asked.input), hashes)},
                       {"mesher", name},
                       {"identity", part_for(name, identity)},
-                      {"options", asked.options}};
-  if (const auto nodes = companion_of(asked.input); is_file(nodes)) what["nodes"] = hashes.of(nodes);
-  for (const std::string& option : asked.options)
-    if (is_file(option)) what["files"].push_back(hashes.of(option));
+                      {"options", options_json(asked.options, hashes)}};
   what["limits"] = {asked.limits.seconds, asked.limits.memory_bytes, asked.limits.disk_bytes};
   what["verify"] = asked.verify;
   return bench::sha256_of_text(what.dump(-1, ' ', false, bench::Json::error_handler_t::replace)).substr(0, id_digits);

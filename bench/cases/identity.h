@@ -11,7 +11,9 @@
 
 namespace ccdt::cases {
 
-/// The fields on which results depend besides their cases: "machine.cpu", "ccdt.binary" (a hash), "tetgen.version".
+/// The fields on which results depend besides their cases: "machine.cpu", "ccdt.binary" (a hash), "tetgen.version". A
+/// mesher that a file describes also has the hashes of that file, "NAME.description", and of the files that it names,
+/// "NAME.file FILE".
 using Identity = std::map<std::string, std::string>;
 
 /// The identity of this machine and these meshers.
@@ -55,8 +57,10 @@ class FileHashes {
   std::map<std::filesystem::path, Known> known_;
 };
 
-/// The hash that identifies a case: of the bytes of its input and of other files that its options name, the mesher's
-/// name, version and binary, the machine, the options, the limits, and whether it is verified; 16 hexadecimal digits.
+/// The hash that identifies a case: of the contents and endings of its input and of the files that belong to it or that
+/// options name; the mesher's name and its part of the identity; the machine; the options; the limits of time, memory
+/// and disk; and whether it is verified. Files count by their contents, wherever they are, and no other file counts. 16
+/// hexadecimal digits.
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes);
 
 }  // namespace ccdt::cases

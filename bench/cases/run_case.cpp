@@ -1,6 +1,7 @@
 #include "bench/cases/run_case.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 #include <vector>
 
@@ -49,16 +50,28 @@ baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> co
   return baselines::run_program(command, {.folder = place.folder, .limits = limits, .scratch = scratch.folder()});
 }
 
+/// An option of the command line as records have it: a number, true or false for on or off, or a name.
+void set_option(std::string name, const std::string& value, RunRecord& record) {
+  name.erase(0, name.find_first_not_of('-'));
+  std::ranges::replace(name, '-', '_');
+  double number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  if (error == std::errc() && end == value.data() + value.size())
+    record.set_option(name, number);
+  else if (value == "on" || value == "off")
+    record.set_option(name, value == "on");
+  else
+    record.set_option(name, value);
+}
+
 /// The record of a child process that ended before it wrote a report.
 RunRecord record_without_report(const RunPlace& place, const Case& asked) {
-  RunRecord record;
-  record.environment = bench::capture_environment();
-  const baselines::Mesher& mesher = baselines::mesher(asked.mesher);
-  record.mesher = {mesher.name, baselines::version_of(mesher),
-                   mesher.name == "ccdt" ? record.environment.revision : ""};
-  record.input.name = name_in(place.folder, asked.input);
+  InputPlc unread;
+  unread.name = name_in(place.folder, asked.input);
+  RunRecord record = bench::start_record(baselines::mesher(asked.mesher), unread, {});
+  record.set_option("threads", 1.0);
   for (std::size_t i = 0; i + 1 < asked.options.size(); i += 2)
-    record.set_option(asked.options[i].substr(asked.options[i].find_first_not_of('-')), asked.options[i + 1]);
+    set_option(asked.options[i], asked.options[i + 1], record);
   return record;
 }
 

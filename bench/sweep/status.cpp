@@ -48,9 +48,9 @@ SweepStatus status_of(std::span<const cases::MeasuredCase> cases, const std::fil
 }
 
 bench::Json to_json(const SweepStatus& status) {
-  return {{"cases", status.cases},      {"runs", status.runs},       {"finished", status.finished},
-          {"failed", status.failed},    {"missing", status.missing}, {"obsolete", status.obsolete},
-          {"failures", status.failures}};
+  return {{"schema", "ccdt.status/1"},   {"cases", status.cases},      {"runs", status.runs},
+          {"finished", status.finished}, {"failed", status.failed},    {"missing", status.missing},
+          {"obsolete", status.obsolete}, {"failures", status.failures}};
 }
 
 std::string in_words(const SweepStatus& status) {
