@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <map>
 #include <random>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bench/cases/case.h"
@@ -229,6 +231,25 @@ TEST(Coverage, ACaseStopsOnlyAtALook) {
     EXPECT_EQ(are_enough(until, std::vector<double>(static_cast<std::size_t>(runs), 1.0), runs),
               std::ranges::find(looks, runs) != looks.end())
         << runs;
+}
+
+TEST(Coverage, ACaseStopsByTheIntervalThatItShows) {
+  constexpr Repetitions until = {.at_least = 6, .at_most = 60, .until = 0.05};
+  std::vector<double> samples(18, 1.0);
+  std::fill_n(samples.begin(), 4, 0.9);
+  std::fill_n(samples.rbegin(), 4, 1.1);
+  EXPECT_LT(bench::relative_spread(bench::median_estimate(samples)), 0.05) << "if 18 had been fixed";
+  EXPECT_FALSE(are_enough(until, samples, 18));
+  samples[3] = samples[14] = 1;
+  EXPECT_TRUE(are_enough(until, samples, 18));
+}
+
+TEST(Coverage, ACaseStopsIfTheNextLookIsBeyondTheBudget) {
+  constexpr Repetitions budget = {.at_least = 6, .at_most = 60, .until = 0.05, .budget_seconds = 18};
+  const std::vector<double> wide = {1, 2, 3, 4, 5, 6};
+  EXPECT_FALSE(are_enough(budget, wide, 6));
+  EXPECT_TRUE(are_enough(budget, wide, 6.01));
+  EXPECT_FALSE(are_enough(budget, std::span(wide).first(5), 1000));
 }
 
 }  // namespace
