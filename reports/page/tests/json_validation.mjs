@@ -6,16 +6,21 @@ import addFormats from "ajv-formats";
 
 const SCHEMA_FILE = /^(ccdt\.[a-z]+)\.(\d+)\.schema\.json$/;
 
+// Two schemas of files that users write have alternatives with members in common.
+const FOR_USERS = { strictRequired: false, strictTuples: false };
+
 /**
  * The validators of all schemas of a folder, by the names that files give ("ccdt.run/1"). What a schema itself gets
  * wrong is an error too.
  */
 export function validatorsOf(schemaFolder) {
-  const ajv = addFormats(new Ajv({ allErrors: true, allowUnionTypes: true, strict: true }));
+  const names = readdirSync(schemaFolder).filter((name) => SCHEMA_FILE.test(name));
+  const ajv = addFormats(new Ajv({ allErrors: true, allowUnionTypes: true, strict: true, ...FOR_USERS }));
+  for (const name of names) ajv.addSchema(readJson(join(schemaFolder, name)), name); // they refer to each other by name
   const validators = new Map();
-  for (const name of readdirSync(schemaFolder)) {
-    const [, kind, version] = SCHEMA_FILE.exec(name) ?? [];
-    if (kind) validators.set(`${kind}/${version}`, ajv.compile(readJson(join(schemaFolder, name))));
+  for (const name of names) {
+    const [, kind, version] = SCHEMA_FILE.exec(name);
+    validators.set(`${kind}/${version}`, ajv.getSchema(name));
   }
   if (validators.size === 0) throw new Error(`${schemaFolder} has no schemas.`);
   return validators;

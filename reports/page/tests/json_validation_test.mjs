@@ -7,11 +7,11 @@ import test from "node:test";
 import { checkFolder, problemsOf, validatorsOf } from "./json_validation.mjs";
 import { kept, regularTetrahedron } from "./small_meshes.mjs";
 
-const validators = validatorsOf(process.env.CCDT_REPORTS);
+const validators = validatorsOf(process.env.CCDT_SCHEMAS);
 const mesh = kept(regularTetrahedron);
 
-test("every schema of the project is one that the validator takes, those of reports among them", () => {
-  const files = readdirSync(process.env.CCDT_REPORTS).filter((name) => name.endsWith(".schema.json"));
+test("every published schema is one that the validator takes, those of reports among them", () => {
+  const files = readdirSync(process.env.CCDT_SCHEMAS).filter((name) => name.endsWith(".schema.json"));
   assert.equal(validators.size, files.length);
   for (const kind of ["claims", "experiment", "mesh", "report", "run"]) assert.ok(validators.has(`ccdt.${kind}/1`), kind);
 });
