@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "baselines/mesher.h"
+#include "baselines/mesher_options.h"
 #include "bench/cases/verify_run.h"
 #include "bench/environment.h"
 
@@ -52,7 +53,6 @@ baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> co
 
 /// An option of the command line as records have it: a number, true or false for on or off, or a name.
 void set_option(std::string name, const std::string& value, RunRecord& record) {
-  name.erase(0, name.find_first_not_of('-'));
   std::ranges::replace(name, '-', '_');
   double number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
@@ -70,8 +70,10 @@ RunRecord record_without_report(const RunPlace& place, const Case& asked) {
   unread.name = name_in(place.folder, asked.input);
   RunRecord record = bench::start_record(baselines::mesher(asked.mesher), unread, {});
   record.set_option("threads", 1.0);
+  baselines::NamedOptions options;
   for (std::size_t i = 0; i + 1 < asked.options.size(); i += 2)
-    set_option(asked.options[i], asked.options[i + 1], record);
+    options[asked.options[i].substr(asked.options[i].find_first_not_of('-'))] = asked.options[i + 1];
+  for (const auto& [name, value] : baselines::with_strategies(options)) set_option(name, value, record);
   return record;
 }
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 
 #include "baselines/external_program.h"
@@ -94,6 +95,21 @@ TEST_F(CaseIds, DoNotDependOnWhereFilesAre) {
   EXPECT_EQ(id(case_of("part.off", {"--sizes", "s.sol"})), id(case_of("moved/part.off", {"--sizes", "moved/s.sol"})));
   write("moved/s.mesh", "another\n");
   EXPECT_NE(id(case_of("part.off", {"--sizes", "s.sol"})), id(case_of("moved/part.off", {"--sizes", "moved/s.sol"})));
+}
+
+TEST_F(CaseIds, NoticeThatAFileWasWrittenAnew) {
+  FileHashes hashes;
+  const Case asked = case_of("part.off");
+  const auto id_now = [&] { return id_of(asked, {}, hashes); };
+  const std::string first = id_now();
+  const auto time = std::filesystem::last_write_time(asked.input);
+  write("part.off", "off\n");  // of the same size
+  std::filesystem::last_write_time(asked.input, time + std::chrono::seconds(1));
+  const std::string second = id_now();
+  EXPECT_NE(second, first);
+  write("part.off", "longer\n");  // at the same time
+  std::filesystem::last_write_time(asked.input, time + std::chrono::seconds(1));
+  EXPECT_NE(id_now(), second);
 }
 
 TEST_F(CaseIds, DependOnEachLimit) {

@@ -228,6 +228,20 @@ TEST_F(RunnerTest, SeveralJobsMakeTheSameRecords) {
   EXPECT_EQ(records(), 20);
 }
 
+TEST_F(RunnerTest, ARunWithoutAReportHasItsOptionsAsAnyOther) {
+  Case asked = case_of("a", "crash\n");
+  asked.options = {"--face-protection", "off", "--edge-length", "0.5", "--strategies", "paper", "--lattice", "bcc"};
+  const RunRecord record = runner().run(asked).first;
+  EXPECT_EQ(record.kind, baselines::FailureKind::crashed);
+  const std::map<std::string, RunRecord::Option> options(record.options.begin(), record.options.end());
+  EXPECT_EQ(options.at("face_protection"), RunRecord::Option(false));
+  EXPECT_EQ(options.at("edge_length"), RunRecord::Option(0.5));
+  EXPECT_EQ(options.at("locator"), RunRecord::Option(std::string("grid")));
+  EXPECT_EQ(options.at("lattice"), RunRecord::Option(std::string("bcc")));
+  EXPECT_EQ(options.at("threads"), RunRecord::Option(1.0));
+  EXPECT_FALSE(options.contains("strategies"));
+}
+
 TEST_F(RunnerTest, AnIdChangesWithAllThatDeterminesTheResult) {
   const Case asked = case_of("a", "1\n");
   const Identity now = {{"ccdt.binary", "x"}, {"ccdt.version", "1"}, {"machine.cpu", "fast"}};
@@ -292,6 +306,12 @@ TEST_F(IdentitiesTest, RefreshForgetsTheOld) {
   accept(a_, OtherIdentity::refuse);
   EXPECT_EQ(accept(b_, OtherIdentity::refresh), std::vector{b_});
   EXPECT_EQ(accept(b_, OtherIdentity::refuse), std::vector{b_});
+}
+
+TEST_F(IdentitiesTest, RefreshForgetsFilesThatADescriptionNoLongerNames) {
+  accept({{"ccdt.version", "1"}, {"mine.file mesh.sh", "x"}, {"mine.version", "1"}}, OtherIdentity::refuse);
+  const Identity all = {{"ccdt.version", "1"}, {"mine.version", "2"}};
+  EXPECT_EQ(accept({{"mine.version", "2"}}, OtherIdentity::refresh), std::vector{all});
 }
 
 TEST_F(IdentitiesTest, MixedKeepsBothAndTakesEitherLater) {
