@@ -407,12 +407,13 @@ FrontResult advance_front(const FrontInput& in, const FrontOptions& options, con
   Front front(in, options.face_protection);
   switch (options.locator) {
     case locate::LocatorKind::grid:
-      front.advance(WholeModelFinder(facets, delaunay,
+      front.advance(WholeModelFinder(facets, delaunay, options.visibility,
                                      locate::GridLocator(delaunay.vertices, facets.triangles, options.grid_scale)),
                     progress);
       break;
     case locate::LocatorKind::octree:
-      front.advance(WholeModelFinder(facets, delaunay, locate::OctreeLocator(delaunay.vertices, facets.triangles)),
+      front.advance(WholeModelFinder(facets, delaunay, options.visibility,
+                                     locate::OctreeLocator(delaunay.vertices, facets.triangles)),
                     progress);
       break;
     case locate::LocatorKind::cavity: {

@@ -9,6 +9,7 @@
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
+#include "engine/front/options.h"
 #include "engine/front/stuck.h"
 #include "engine/locate/options.h"
 #include "engine/plc/plc.h"
@@ -47,6 +48,7 @@ struct FrontOptions {
   locate::LocatorKind locator = locate::LocatorKind::grid;
   double grid_scale = 1;        ///< of the grid: factor of the paper's cell size
   bool face_protection = true;  ///< are new faces looked up in the tetrahedralization?
+  Visibility visibility = Visibility::centroid;
   /// The `cavity` locator tries all vertices of a chamber that has at most this many: fewer than are near a face.
   std::size_t small_chamber = 256;
 };
@@ -55,7 +57,7 @@ struct FrontOptions {
 /// Delaunay (paper, sections 5.1 to 5.3). For the active face it finds the vertex above it that is visible from it and
 /// whose sphere holds no visible vertex. Visibility is from one generic point of the face, which decides it for all: a
 /// vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the cell there is hidden
-/// from every point of the face (Shewchuk 2008).
+/// from every point of the face (Shewchuk 2008). The paper's tests (`Visibility::faces`) are made before that one.
 ///
 /// In a large chamber, the `cavity` locator tries vertices near a face first, because the sphere of a needle may
 /// contain thousands of hidden ones. If the tetrahedra fit together, they are right; those that do not fit are made

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/base/index_lists.h"
@@ -23,14 +24,16 @@ enum class Search { near, full };
 template <class Locator>
 class WholeModelFinder {
  public:
-  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, const Locator& locator)
-      : facets_(facets), d_(delaunay), locator_(locator) {}
+  WholeModelFinder(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay, Visibility visibility,
+                   Locator locator)
+      : facets_(facets), d_(delaunay), visibility_(visibility), locator_(std::move(locator)) {}
 
   /// \param region  above the face
   /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
   std::optional<std::uint32_t> find(const OrientedFace& face, RegionId /*region*/, Search /*all*/,
                                     std::uint32_t& /*cavity*/) const {
-    return find_apex(locator_, facets_, d_, face);
+    return visibility_ == Visibility::faces ? find_apex_as_paper(locator_, facets_, d_, face)
+                                            : find_apex(locator_, facets_, d_, face);
   }
 
   Search first_search() const { return Search::full; }
@@ -43,6 +46,7 @@ class WholeModelFinder {
  private:
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
+  Visibility visibility_;
   Locator locator_;
 };
 
@@ -54,6 +58,7 @@ class CavityFinder {
         d_(input.delaunay),
         near_(near),
         all_faces_(!options.face_protection),
+        visibility_(options.visibility),
         small_chamber_(options.small_chamber),
         locator_(input.plc, input.facets, input.codes, input.delaunay) {}
 
@@ -69,6 +74,7 @@ class CavityFinder {
     if (cavity == no_cavity) return std::nullopt;
     const locate::OctreeLocator* const chamber = locator_.chamber(cavity, region);
     if (chamber == nullptr) return std::nullopt;
+    if (visibility_ == Visibility::faces) return find_apex_as_paper(*chamber, facets_, d_, face);
     if (chamber->vertex_count() <= small_chamber_) return find_apex(*chamber, facets_, d_, face);
     const auto near = find_near_apex(*chamber, facets_, d_, face, near_);
     return search == Search::near ? near : find_apex(*chamber, facets_, d_, face, near);
@@ -87,6 +93,7 @@ class CavityFinder {
   const delaunay::Delaunay& d_;
   NearVertices& near_;
   bool all_faces_;  // may the front hold Delaunay faces, outside of the cavities too?
+  Visibility visibility_;
   std::size_t small_chamber_;
   locate::CavityLocator locator_;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/count_work.h"
+#include "engine/front/visibility.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
 #include "engine/numbers/filters.h"
@@ -15,41 +16,6 @@
 
 namespace ccdt::front {
 namespace {
-
-/// A triangle that may block the view.
-using Occluder = std::array<const Point3*, 3>;
-
-/// Do filters prove that the line from p to the centroid of abc does not meet the inside of t? The line passes nearly
-/// all candidates at a distance, so the exact signs of coplanar points are not needed.
-bool surely_passes_by(const Occluder& t, const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
-  int turns_seen = 0;  // a bit for each sign
-  const auto add = [&](numbers::Sign turn) {
-    turns_seen |= turn == numbers::Sign::plus ? 1 : turn == numbers::Sign::minus ? 2 : 0;
-  };
-  add(numbers::orient3d_centroid_filter(p, *t[0], *t[1], a, b, c));
-  add(numbers::orient3d_centroid_filter(p, *t[1], *t[2], a, b, c));
-  if (turns_seen == 3) return true;
-  add(numbers::orient3d_centroid_filter(p, *t[2], *t[0], a, b, c));
-  if (turns_seen == 3) return true;
-  const numbers::Sign side_of_p = numbers::orient3d_filter(*t[0], *t[1], *t[2], p);
-  return side_of_p == numbers::Sign::zero ||
-         (side_of_p != numbers::Sign::unknown &&
-          side_of_p == numbers::orient3d_centroid_filter(*t[0], *t[1], *t[2], a, b, c));
-}
-
-/// Does the triangle t hide the point p from the (generically moved) centroid of the triangle abc? Exactly: touching is
-/// not crossing.
-bool hides(const Occluder& t, const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
-  if (surely_passes_by(t, p, a, b, c)) return false;
-  const int side_of_p = numbers::orient3d(*t[0], *t[1], *t[2], p);
-  if (side_of_p == 0) return false;
-  const int side_of_face = numbers::orient3d_centroid(*t[0], *t[1], *t[2], a, b, c);
-  if (side_of_face != -side_of_p) return false;
-  // The line of sight passes the three edges on the same side.
-  const int turn = numbers::orient3d_centroid(p, *t[0], *t[1], a, b, c);
-  return turn != 0 && numbers::orient3d_centroid(p, *t[1], *t[2], a, b, c) == turn &&
-         numbers::orient3d_centroid(p, *t[2], *t[0], a, b, c) == turn;
-}
 
 /// The centroid in floating point, for boxes and cells.
 Point3 approximate_centroid(const Point3& a, const Point3& b, const Point3& c) {
@@ -91,6 +57,19 @@ class ApexSearch {
         best(nobody, [&](const locate::LocatedVertex& v) { return v.id != any.id && is_visible(v); });
     if (seen.id == delaunay::ghost_vertex) return std::nullopt;
     return seen.id;
+  }
+
+  /// As in the paper (sections 4 and 5.1): the first visible vertex is replaced by a visible one in its sphere, as long
+  /// as there is one. Where facets meet at an edge of the face, they can hide a vertex without crossing any of the
+  /// three triangles. So what passes the paper's tests is looked at along a line, too.
+  std::optional<std::uint32_t> find_as_paper() {
+    const auto is_seen = [&](const locate::LocatedVertex& v) { return is_visible_from_edges(v) && is_visible(v); };
+    locate::LocatedVertex found = nobody;
+    for (locate::LocatedVertex next = first(nobody, is_seen); next.id != delaunay::ghost_vertex;
+         next = first(next, is_seen))
+      found = next;
+    if (found.id == delaunay::ghost_vertex) return std::nullopt;
+    return found.id;
   }
 
   std::optional<std::uint32_t> find_near(NearVertices& near) {
@@ -154,6 +133,26 @@ class ApexSearch {
     return best;
   }
 
+  /// The first vertex above the face, ring of cells by ring, that satisfies a condition and is in the sphere of the
+  /// face and another vertex, if one is given; `ghost_vertex` if there is none.
+  template <class Satisfies>
+  locate::LocatedVertex first(const locate::LocatedVertex& before, const Satisfies& satisfies) {
+    const Point3 &a = a_.point, &b = b_.point, &c = c_.point, start = approximate_centroid(a, b, c);
+    locate::Cap cap(a, b, c);
+    if (before.id != delaunay::ghost_vertex) shrink(cap, a, b, c, before.point);
+    locate::LocatedVertex found = nobody;
+    locator_.visit_nearest_first(start, cap, [&](const locate::LocatedVertex& v) {
+      if (found.id != delaunay::ghost_vertex) return;
+      ++work_done.front_candidates;
+      if (v.id == face_[0] || v.id == face_[1] || v.id == face_[2] || v.id == before.id) return;
+      if (!is_above(v.point) || (before.id != delaunay::ghost_vertex && !is_in_sphere(before, v)) || !satisfies(v))
+        return;
+      found = v;
+      cap.shrink_to(start, 0);  // ends the search
+    });
+    return found;
+  }
+
   bool is_above(const Point3& p) const {
     const numbers::Sign sign = numbers::orient3d_filter(a_.point, b_.point, c_.point, p);
     return sign == numbers::Sign::unknown ? numbers::orient3d_exactly(a_.point, b_.point, c_.point, p) > 0
@@ -181,6 +180,21 @@ class ApexSearch {
       occluders_.insert(occluders_.begin(), f);
       return true;
     });
+  }
+
+  /// The paper's test: no facet crosses the triangles that the vertex forms with the edges of the face.
+  bool is_visible_from_edges(const locate::LocatedVertex& v) const {
+    for (const auto& [from, to] : {std::pair(&a_, &b_), std::pair(&b_, &c_), std::pair(&c_, &a_)}) {
+      const Corners triangle = {&from->point, &to->point, &v.point};
+      const Box box = bounding_box(std::array{from->point, to->point, v.point});
+      if (locator_.any_near_box(box, [&](std::uint32_t f) {
+            const auto& t = facets_.triangles[f];
+            ++work_done.visibility_tests;
+            return cross_each_other(triangle, {&d_.point(t[0]), &d_.point(t[1]), &d_.point(t[2])});
+          }))
+        return false;
+    }
+    return true;
   }
 
   bool is_hidden_by(std::uint32_t f, const locate::LocatedVertex& v) const {
@@ -211,6 +225,12 @@ std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::Fac
 }
 
 template <class Locator>
+std::optional<std::uint32_t> find_apex_as_paper(const Locator& locator, const facets::FacetMesh& facets,
+                                                const delaunay::Delaunay& delaunay, const OrientedFace& face) {
+  return ApexSearch<Locator>(locator, facets, delaunay, face).find_as_paper();
+}
+
+template <class Locator>
 std::optional<std::uint32_t> find_near_apex(const Locator& locator, const facets::FacetMesh& facets,
                                             const delaunay::Delaunay& delaunay, const OrientedFace& face,
                                             NearVertices& near) {
@@ -223,6 +243,10 @@ template std::optional<std::uint32_t> find_apex(const locate::GridLocator&, cons
 template std::optional<std::uint32_t> find_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                 const delaunay::Delaunay&, const OrientedFace&,
                                                 std::optional<std::uint32_t>);
+template std::optional<std::uint32_t> find_apex_as_paper(const locate::GridLocator&, const facets::FacetMesh&,
+                                                         const delaunay::Delaunay&, const OrientedFace&);
+template std::optional<std::uint32_t> find_apex_as_paper(const locate::OctreeLocator&, const facets::FacetMesh&,
+                                                         const delaunay::Delaunay&, const OrientedFace&);
 template std::optional<std::uint32_t> find_near_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                      const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
 

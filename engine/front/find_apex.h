@@ -40,6 +40,13 @@ std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::Fac
                                        const delaunay::Delaunay& delaunay, const OrientedFace& face,
                                        std::optional<std::uint32_t> seen_before = {});
 
+/// The same as the paper does it (sections 4 and 5.1), by the visibility of every candidate from the three edges of the
+/// face. It finds the same vertex: the apex of the constrained Delaunay tetrahedron passes all these tests, and every
+/// vertex in its sphere is hidden from the centroid.
+template <class Locator>
+std::optional<std::uint32_t> find_apex_as_paper(const Locator& locator, const facets::FacetMesh& facets,
+                                                const delaunay::Delaunay& delaunay, const OrientedFace& face);
+
 /// The same among the vertices near the face, and those near the best so far, until none of these is better. The sphere
 /// of a large face may contain thousands of hidden vertices, which this search skips. So the apex is nearly always
 /// right, but not certainly.

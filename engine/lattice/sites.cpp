@@ -31,6 +31,7 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
     case Lattice::sc:
       return std::span(corners_then_center).first(8);
     case Lattice::none:
+    case Lattice::refinement:
       break;
   }
   return {};

@@ -36,11 +36,17 @@ class GridLocator {
   template <class Visit>
   bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const;
 
+  /// The same for every face that may meet the box.
+  template <class Visit>
+  bool any_near_box(const Box& box, const Visit& visit) const;
+
  private:
   template <class Visit>
   void visit_ring(const UniformGrid::CellIndex& middle, int ring, const Cap& cap, const Visit& visit) const;
   template <class Visit>
   void visit_cell(const UniformGrid::CellIndex& cell, const Cap& cap, const Visit& visit) const;
+  template <class Visit>
+  bool any_in_cells(const UniformGrid::CellIndex& from, const UniformGrid::CellIndex& to, const Visit& visit) const;
 
   UniformGrid grid_;
   std::vector<LocatedVertex> vertices_;      // by cell
@@ -103,14 +109,27 @@ bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& v
     const UniformGrid::CellIndex from = grid_.cell_at(box.low), to = grid_.cell_at(box.high);
     if (from == last_from && to == last_to) continue;
     last_from = from, last_to = to;
-    for (int z = from[2]; z <= to[2]; ++z)
-      for (int y = from[1]; y <= to[1]; ++y)
-        for (int x = from[0]; x <= to[0]; ++x) {
-          ++work_done.grid_cells;
-          for (const std::uint32_t f : faces_.of(grid_.number({x, y, z})))
-            if (visit(f)) return true;
-        }
+    if (any_in_cells(from, to, visit)) return true;
   }
+  return false;
+}
+
+template <class Visit>
+bool GridLocator::any_near_box(const Box& box, const Visit& visit) const {
+  const Box wider = expanded(box, 1e-3 * grid_.cell_size);
+  return any_in_cells(grid_.cell_at(wider.low), grid_.cell_at(wider.high), visit);
+}
+
+template <class Visit>
+bool GridLocator::any_in_cells(const UniformGrid::CellIndex& from, const UniformGrid::CellIndex& to,
+                               const Visit& visit) const {
+  for (int z = from[2]; z <= to[2]; ++z)
+    for (int y = from[1]; y <= to[1]; ++y)
+      for (int x = from[0]; x <= to[0]; ++x) {
+        ++work_done.grid_cells;
+        for (const std::uint32_t f : faces_.of(grid_.number({x, y, z})))
+          if (visit(f)) return true;
+      }
   return false;
 }
 

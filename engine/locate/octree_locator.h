@@ -39,6 +39,13 @@ class EdgeProbe {
   Point3 middle_, along_, half_;
 };
 
+/// Tests whether a box meets boxes.
+struct BoxProbe {
+  Box box;
+
+  bool misses(const Box& other) const { return !box.meets(other); }
+};
+
 /// An octree over items with boxes, in flat arrays: items in Morton order of the middles of their boxes, every node a
 /// run of them with the box around it, so that an item is in one leaf only, whatever its size. Nodes adapt to graded
 /// density: octants without items have no node, and a node with a single octant is that octant.
@@ -65,8 +72,8 @@ class BoxOctree {
   void visit_nearest_first(const Point3& start, const Misses& misses, const Visit& visit) const;
 
   /// Calls visit(first, last) for the leaves whose box the probe does not miss, until it returns true. \return did it?
-  template <class Visit>
-  bool any_leaf_at(const EdgeProbe& probe, const Visit& visit) const;
+  template <class Probe, class Visit>
+  bool any_leaf_at(const Probe& probe, const Visit& visit) const;
 
  private:
   static constexpr unsigned deepest = 21;                  // levels of Morton numbers of 63 bits
@@ -107,8 +114,8 @@ void BoxOctree::visit_nearest_first(const Point3& start, const Misses& misses, c
   }
 }
 
-template <class Visit>
-bool BoxOctree::any_leaf_at(const EdgeProbe& probe, const Visit& visit) const {
+template <class Probe, class Visit>
+bool BoxOctree::any_leaf_at(const Probe& probe, const Visit& visit) const {
   std::array<std::uint32_t, stack_room> stack;
   unsigned height = 0;
   if (!nodes_.empty()) stack[height++] = 0;
@@ -134,8 +141,8 @@ class FaceOctree {
   std::size_t bytes() const { return tree_.bytes() + bytes_of(faces_, boxes_); }
 
   /// Calls visit(face) for the faces whose box the probe does not miss until it returns true. \return did some call?
-  template <class Visit>
-  bool any_at(const EdgeProbe& probe, const Visit& visit) const {
+  template <class Probe, class Visit>
+  bool any_at(const Probe& probe, const Visit& visit) const {
     return tree_.any_leaf_at(probe, [&](std::uint32_t first, std::uint32_t last) {
       for (std::uint32_t i = first; i < last; ++i)
         if (!probe.misses(boxes_[i]) && visit(faces_[i])) return true;
@@ -166,6 +173,12 @@ class FacetLayer {
     const double from = height(p), to = height(q);
     if ((from < low_ && to < low_) || (from > high_ && to > high_)) return false;
     return octree_.any_at(EdgeProbe(clipped(p, from, q, to), clipped(q, to, p, from)), visit);
+  }
+
+  /// Like that of `OctreeLocator`.
+  template <class Visit>
+  bool any_near_box(const Box& box, const Visit& visit) const {
+    return octree_.any_at(BoxProbe{box}, visit);
   }
 
  private:
@@ -221,6 +234,13 @@ class OctreeLocator {
   bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const {
     return other_faces_.any_at(EdgeProbe(p, q), visit) ||
            std::ranges::any_of(layers_, [&](const FacetLayer& layer) { return layer.any_near_edge(p, q, visit); });
+  }
+
+  /// The same for every face that may meet the box.
+  template <class Visit>
+  bool any_near_box(const Box& box, const Visit& visit) const {
+    return other_faces_.any_at(BoxProbe{box}, visit) ||
+           std::ranges::any_of(layers_, [&](const FacetLayer& layer) { return layer.any_near_box(box, visit); });
   }
 
  private:

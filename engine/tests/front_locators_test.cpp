@@ -10,7 +10,7 @@
 #include "engine/tests/real_parts.h"
 #include "models/solids.h"
 
-// The front makes the same tetrahedra with every locator, with and without the check.
+// The front makes the same tetrahedra with every locator and both tests of visibility, with and without the check.
 
 namespace ccdt {
 namespace {
@@ -23,8 +23,12 @@ void expect_same_tetrahedra(const Stages& stages) {
   for (const front::FrontOptions& locator :
        {front::FrontOptions{locate::LocatorKind::grid, 0.5}, front::FrontOptions{locate::LocatorKind::grid, 2},
         front::FrontOptions{locate::LocatorKind::octree}, front::FrontOptions{locate::LocatorKind::cavity},
-        front::FrontOptions{.locator = locate::LocatorKind::cavity, .small_chamber = 0}}) {
-    SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.locator)));
+        front::FrontOptions{.locator = locate::LocatorKind::cavity, .small_chamber = 0},
+        front::FrontOptions{.locator = locate::LocatorKind::grid, .visibility = front::Visibility::faces},
+        front::FrontOptions{.locator = locate::LocatorKind::octree, .visibility = front::Visibility::faces},
+        front::FrontOptions{.locator = locate::LocatorKind::cavity, .visibility = front::Visibility::faces}}) {
+    SCOPED_TRACE("locator " + std::to_string(static_cast<int>(locator.locator)) + ", visibility " +
+                 std::to_string(static_cast<int>(locator.visibility)));
     const front::FrontResult other = stages.advance(locator), all_by_other = stages.advance_all(locator);
     EXPECT_EQ(sorted(checked.tetrahedra), sorted(other.tetrahedra));
     EXPECT_EQ(sorted(all.tetrahedra), sorted(all_by_other.tetrahedra));

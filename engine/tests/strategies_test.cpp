@@ -61,6 +61,8 @@ std::vector<Case> small_cases() {
   cases.push_back({"cubic lattice in a cube", cube_of_lattice_points(6)});
   cases.push_back({"gridded cube filled with fcc", gridded_cube(8), Lattice::fcc});
   cases.push_back({"gridded cube filled with sc", gridded_cube(8), Lattice::sc});
+  cases.push_back({"gridded cube, refined", gridded_cube(8), Lattice::refinement});
+  cases.push_back({"rotated gridded cube, refined", rotated(oblique, gridded_cube(6)), Lattice::refinement, 0.1});
   cases.push_back({"antiprism on a sphere", twisted_prism(12, -0.5)});
   return cases;
 }
@@ -76,6 +78,7 @@ std::vector<Case> random_cases() {
     cases.push_back({"random convex" + number, random_convex(24, random)});
     cases.push_back(
         {"rough sphere" + number, roughened(models::make_solid("sphere", 0.35), 0.3, random), Lattice::fcc});
+    cases.push_back({"rough sphere" + number + ", refined", cases.back().plc, Lattice::refinement});
   }
   return cases;
 }
@@ -85,6 +88,7 @@ std::vector<Case> part_cases() {
   std::vector<Case> cases;
   for (const char* name : {"piston", "bracket", "stepping-pole"}) {
     cases.push_back({name, models::make_solid(name, 6), Lattice::fcc});
+    cases.push_back({std::string(name) + ", refined", models::make_solid(name, 6), Lattice::refinement});
     cases.push_back({std::string(name) + ", surface alone", models::make_solid(name, 8)});
   }
   if (!there_are_parts()) return cases;
@@ -168,6 +172,7 @@ MeshResult expect_one_set_of_tetrahedra(const Case& c) {
                      std::to_string(static_cast<int>(locator)) + ", check " + std::to_string(check));
         MeshOptions options;
         options.delaunay = method, options.least_core = 0;
+        options.visibility = method == DelaunayMethod::wrap ? Visibility::faces : Visibility::centroid;
         options.locator = locator;
         options.face_protection = check;
         options.lattice = c.lattice;
