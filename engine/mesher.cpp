@@ -9,6 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/stopwatch.h"
+#include "engine/circumcenters/place_circumcenters.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
@@ -66,7 +67,7 @@ std::vector<Point3> points_of(const delaunay::Delaunay& delaunay) {
   return points;
 }
 
-/// The points of the lattice, which keeps away from faces and subsegments.
+/// The points of the lattice, or of Delaunay refinement. They keep away from faces and subsegments.
 lattice::LatticePoints place_points(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
                                     const facets::FacetMesh& facets, const MeshOptions& options,
                                     const Progress& progress) {
@@ -79,9 +80,13 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   const BackgroundSizes background = in_grid_units(options.background, plc.grid);
   const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
                                         options.grading,   options.sphere_factor,
-                                        options.clearance, options.radius_edge,                        &background};
+                                        options.clearance, options.radius_edge,
+                                        &background};
   const std::vector<Point3> vertices = points_of(surface.delaunay);
-  return lattice::place_lattice_points({vertices, triangles, subsegments}, lattice, progress);
+  const lattice::DomainSurface domain{vertices, triangles, subsegments};
+  if (options.lattice == Lattice::refinement)
+    return circumcenters::place_circumcenters(domain, surface.delaunay, lattice, progress);
+  return lattice::place_lattice_points(domain, lattice, progress);
 }
 
 /// The Delaunay tetrahedralization of the surface's vertices and the points.
@@ -93,7 +98,8 @@ delaunay::Delaunay add_points(lattice::LatticePoints lattice, delaunay::Delaunay
     append_vertices(d, lattice.points, lattice.later_rounds);
     return delaunay::wrap_delaunay(std::move(d.vertices), options.grid_scale, progress);
   }
-  if (options.delaunay == DelaunayMethod::core && lattice.share_in_one_level >= options.least_core)
+  const bool is_lattice = options.lattice != Lattice::refinement;
+  if (is_lattice && options.delaunay == DelaunayMethod::core && lattice.share_in_one_level >= options.least_core)
     counts.core_tetrahedra = cores::insert_points(lattice, d, progress);
   else
     insert_points(d, lattice.points, lattice.later_rounds, progress);

@@ -114,6 +114,8 @@ class Insertion {
   /// Joins the new vertex to the border of the cavity, for which there must be room.
   /// \return one of the new cells
   std::uint32_t fill_cavity();
+  /// The cells that filled the last cavity, in its order of faces; valid until the next one is filled.
+  std::span<const std::uint32_t> new_cells() const { return places_; }
 
  private:
   /// A list with room for more items.

@@ -28,6 +28,7 @@ double side_for_unit_edge(Lattice kind) {
       return 1 / two_to_a_sixth;
     case Lattice::fcc:
     case Lattice::none:
+    case Lattice::refinement:
       break;
   }
   return std::sqrt(2.0);
@@ -387,6 +388,16 @@ const OctreeNode& Octree::leaf_at(const std::array<std::uint32_t, 3>& c) const {
   std::uint32_t i = 0;
   while (!nodes[i].is_leaf()) i = child_at(nodes[i], c);
   return nodes[i];
+}
+
+const OctreeNode& Octree::leaf_with(const Point3& p) const {
+  const auto from_origin = as_array(p - origin);
+  std::array<std::uint32_t, 3> c;
+  for (std::size_t k = 0; k < 3; ++k) {
+    c[k] = static_cast<std::uint32_t>(from_origin[k] / unit);
+    if (length(c[k]) > from_origin[k]) --c[k];  // the quotient was rounded up
+  }
+  return leaf_at(c);
 }
 
 bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node) {

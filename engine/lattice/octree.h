@@ -74,6 +74,10 @@ struct Octree {
   std::uint32_t child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const;
   /// The leaf that holds a point within the root.
   const OctreeNode& leaf_at(const std::array<std::uint32_t, 3>& c) const;
+  /// The leaf that holds a point of the root, which is in the box of the leaf.
+  ///
+  /// \param p  integers in grid units
+  const OctreeNode& leaf_with(const Point3& p) const;
   std::span<const std::uint32_t> triangles_of(const OctreeNode& node) const {
     return std::span(triangles).subspan(node.first_triangle, node.triangle_count);
   }

@@ -52,8 +52,8 @@ struct LatticeOptions {
   /// Factor of the radii of the smallest spheres through surface triangles and subsegments, in which no point may lie;
   /// 1 is the paper's rule, 0 switches it off.
   double sphere_factor = 1;
-  double clearance = usual_clearance;           ///< least distance to the surface, in edge lengths of the lattice there
-  double radius_edge = 2;  ///< Delaunay refinement: the largest circumradius over the shortest edge
+  double clearance = usual_clearance;  ///< least distance to the surface, in edge lengths of the lattice there
+  double radius_edge = 2;              ///< Delaunay refinement: the largest circumradius over the shortest edge
   const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
 };
 

@@ -34,18 +34,10 @@ double volume_inside(const DomainSurface& surface) {
   return volume;
 }
 
-/// Checked before memory is allocated. The lattice is nowhere coarser than the greatest target.
-void check_number(const DomainSurface& surface, const SizeField& size) {
-  const double largest = size.largest();
-  if (largest == HUGE_VAL) return;
-  const double points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
-  if (points > plc::most_vertices) plc::throw_too_many_vertices(points);
-}
-
 /// The field of sizes takes much memory, so it ends here.
 Octree make_octree(const DomainSurface& surface, const LatticeOptions& options) {
   const SizeField size(surface, options.edge_length, options.grading, options.background);
-  check_number(surface, size);
+  check_number_of_points(surface, size);
   return build_octree(surface, size, options.kind);
 }
 
@@ -116,6 +108,13 @@ RawVector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<con
 }
 
 }  // namespace
+
+void check_number_of_points(const DomainSurface& surface, const SizeField& size) {
+  const double largest = size.largest();
+  if (largest == HUGE_VAL) return;
+  const double points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
+  if (points > plc::most_vertices) plc::throw_too_many_vertices(points);
+}
 
 LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress) {

@@ -42,6 +42,11 @@ struct LatticePoints {
 LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress = {});
 
+/// Checks the number of points before memory is allocated. They are nowhere coarser than the greatest target.
+///
+/// \throw LimitError  more points than vertex ids
+void check_number_of_points(const DomainSurface& surface, const SizeField& size);
+
 /// Leaves out all points but these.
 ///
 /// \param those  indices, in increasing order

@@ -76,7 +76,7 @@ MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection p
 }
 
 void expect_agreement_of_all_strategies(const InputPlc& input) {
-  for (const Lattice lattice : {Lattice::none, Lattice::fcc, Lattice::bcc, Lattice::sc})
+  for (const Lattice lattice : {Lattice::none, Lattice::fcc, Lattice::bcc, Lattice::sc, Lattice::refinement})
     expect_agreement(input, lattice);
   expect_agreement(input, Lattice::none, Protection::midpoint);
 }
