@@ -233,6 +233,11 @@ TEST(Coverage, ACaseStopsOnlyAtALook) {
         << runs;
 }
 
+TEST(Coverage, AFixedNumberOfRunsIsItsOnlyLook) {
+  EXPECT_EQ(cases::looks_of({.at_least = 6, .at_most = 60}), std::vector<int>{6});
+  EXPECT_EQ(cases::looks_of({.at_least = 3, .at_most = 3}), std::vector<int>{3});
+}
+
 TEST(Coverage, ACaseStopsByTheIntervalThatItShows) {
   constexpr Repetitions until = {.at_least = 6, .at_most = 60, .until = 0.05};
   std::vector<double> samples(18, 1.0);
