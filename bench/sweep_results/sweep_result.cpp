@@ -42,7 +42,7 @@ bench::Environment environment_of(const Sweep& sweep, const std::filesystem::pat
 void add_circumstances(const Sweep& sweep, const std::filesystem::path& folder, ExperimentResult& result) {
   result.how.environment = environment_of(sweep, folder);
   result.how.limits = {.seconds = sweep.limit_seconds, .memory_bytes = static_cast<std::uint64_t>(sweep.limit_bytes)};
-  for (const SweepCase& one : sweep.cases) result.how.runs = std::max(result.how.runs, one.wanted.at_least);
+  for (const SweepCase& one : sweep.cases) result.how.runs = std::max(result.how.runs, looks_of(one.wanted).front());
   result.how.command = "ccdt sweep sweep.json -o .";
 }
 

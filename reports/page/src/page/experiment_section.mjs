@@ -20,6 +20,8 @@ function limitsText(limits) {
   return parts.length > 0 ? `limits of a run: ${parts.join(", ")}` : "";
 }
 
+const FEWEST_FOR_INTERVAL = 6; // as in bench/median_interval.h
+
 /** How it was measured, in a line. */
 function circumstances(section) {
   const { scale, tetrahedra, runs, confidence } = section;
@@ -27,7 +29,7 @@ function circumstances(section) {
     scale ? `scale ${scale}` : "",
     tetrahedra ? `about ${numberText(tetrahedra)} tetrahedra per model` : "",
     runs ? `${counted(runs, "counted run")} per case` : "",
-    confidence ? `${numberText(100 * confidence)}% intervals` : "",
+    confidence && runs >= FEWEST_FOR_INTERVAL ? `${numberText(100 * confidence)}% intervals` : "",
     limitsText(section.limits),
   ]
     .filter(Boolean)
