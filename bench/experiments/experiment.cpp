@@ -13,8 +13,8 @@ namespace {
 
 constexpr int most_runs = 60;
 
-/// Long cases are run less often. What counts as long depends on the scale: one second for all runs of a case with 8,000
-/// tetrahedra per model.
+/// Long cases are run less often. What counts as long depends on the scale: one second for all runs of a case with
+/// 8,000 tetrahedra per model.
 double budget(const ExperimentOptions& options) {
   return options.tetrahedra / 8000;
 }
