@@ -34,9 +34,12 @@ function namesBelowAxes({ facet }) {
   return orient === "bottom" ? [...labelExpr.matchAll(/: '([^']*)'/g)].map(([, name]) => name) : [];
 }
 
+/** A long title has several lines. */
+const titleOf = ({ axis: { title } }) => [title ?? []].flat().join(" ");
+
 function titlesOf(chart, axes) {
   const below = namesBelowAxes(chart.spec);
-  return axes.flatMap(({ axis: { title } }) => (title ? [title] : below.length > 0 ? below : ["without a title"]));
+  return axes.flatMap((one) => (titleOf(one) ? [titleOf(one)] : below.length > 0 ? below : ["without a title"]));
 }
 
 /** Where the scale of an axis starts, as far as its specification says. */
@@ -67,8 +70,8 @@ for (const { section, chart } of all) {
   });
 
   test(`${name} has linear axes that start at zero, or at 1 for r, which is never less`, () => {
-    for (const { axis, scale } of axes.filter((one) => one.scale.type === "linear"))
-      assert.equal(startOf(scale), axis.title?.startsWith("r (") ? 1 : 0, axis.title);
+    for (const one of axes.filter(({ scale }) => scale.type === "linear"))
+      assert.equal(startOf(one.scale), titleOf(one).startsWith("r (") ? 1 : 0, titleOf(one));
   });
 
   test(`${name} has equal bins or a density, if it is a histogram`, () => {

@@ -96,3 +96,9 @@ test("linear axes start at zero, unless the chart says where", () => {
   assert.deepEqual(scaleOf({ scale: { domain: [1, 3] } }), { domain: [1, 3] });
   assert.equal(scaleOf({ scale: { type: "log" } }).domainMin, undefined);
 });
+
+test("the title of an axis that is longer than it takes several lines", () => {
+  const y = { field: "seconds.value", type: "quantitative", title: "time of a whole case (s)" };
+  const high = { tables: ["times"], spec: { data: { name: "times" }, height: 60, mark: "point", encoding: { y } } };
+  assert.deepEqual(completeSpec(section, high).encoding.y.title, ["time of a", "whole case", "(s)"]);
+});

@@ -162,6 +162,18 @@ function completeChannels(spec, data, { theme, width, room }) {
   });
 }
 
+/** Titles of axes take several lines where they are longer than their axes. */
+function wrapTitles(spec, fontSize) {
+  const { width, height } = spec.spec ?? spec;
+  const lengths = { x: width, y: height };
+  eachChannel(spec, (channel, definition) => {
+    const length = lengths[channel];
+    if (typeof definition.title === "string" && typeof length === "number")
+      definition.title = inLines(definition.title, length, fontSize);
+  });
+  return spec;
+}
+
 /**
  * From a chart of a report to Vega-Lite with data.
  * @param {object} section  of the report
@@ -181,10 +193,12 @@ export function completeSpec(
   { theme = "light", width = PRINT_WIDTH, room = FIRST_ROOM, font, passes, data = chartData(section, chart, passes) } = {},
 ) {
   const spec = structuredClone(chart.spec);
+  const fontSize = textSize(theme);
   completeChannels(spec, data, { theme, width, room });
+  const size = { width, room, fontSize, rowLabels: rowLabelWidth(spec, data, theme, width) };
   return {
     $schema: "https://vega.github.io/schema/vega-lite/v6.json",
-    ...sized(spec, data, { width, room, fontSize: textSize(theme), rowLabels: rowLabelWidth(spec, data, theme, width) }),
+    ...wrapTitles(sized(spec, data, size), fontSize),
     datasets: data,
     config: chartConfig(theme, font),
   };
