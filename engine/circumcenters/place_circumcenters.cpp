@@ -101,26 +101,29 @@ class Refinement {
         options_(options),
         progress_(progress),
         squared_bound_(options.radius_edge * options.radius_edge),
-        size_(surface, options.edge_length, options.grading, options.background),
         obstacles_(surface, options.sphere_factor),
         d_(std::move(delaunay)),
         insertion_(d_),
         first_(d_.vertices.size()) {
-    lattice::check_number_of_points(surface, size_);
-    tree_ = lattice::build_octree(surface, size_, options.kind);
+    const lattice::SizeField size(surface, options.edge_length, options.grading, options.background);
+    lattice::check_number_of_points(surface, size);
+    tree_ = lattice::build_octree(surface, size, options.kind);
+    for (unsigned level = 0; level <= tree_.depth; ++level) {
+      const double target = lattice::edge_length_of_cell(options.kind, tree_.length(2u << (tree_.depth - level)));
+      levels_.push_back({options.clearance * target, radius_per_edge * radius_per_edge * target * target});
+    }
   }
 
   lattice::LatticePoints run() {
     std::vector<std::uint32_t> all(d_.cells.size());
     std::iota(all.begin(), all.end(), 0u);
-    constexpr double unknown = 0;
-    consider(all, unknown);
+    consider(all);
     Candidate worst;
     while (queue_.pop(worst)) {
       if (is_gone(worst)) continue;
       const std::optional<NewPoint> point = find_point(worst);
       if (!point || !insert(point->place, worst.cell, point->squared_clearance)) continue;
-      consider(insertion_.new_cells(), point->target);
+      consider(insertion_.new_cells());
       const std::size_t count = d_.vertices.size() - first_;
       if (count % 4096 == 0) report(progress_, stage, count, 0);
     }
@@ -133,7 +136,6 @@ class Refinement {
   /// A circumcenter that may become a vertex.
   struct NewPoint {
     Point3 place;
-    double target;             ///< edge length there
     double squared_clearance;  ///< least squared distance to the nearest vertex
   };
 
@@ -143,10 +145,12 @@ class Refinement {
 
   bool is_skinny(const CellShape& s) const { return s.squared_radius > squared_bound_ * s.squared_shortest_edge; }
 
-  /// Queues those of some cells that may be bad.
-  ///
-  /// \param target  edge length at a vertex of all of them; 0: not known
-  void consider(std::span<const std::uint32_t> cells, double target) {
+  bool is_large(const CellShape& s, const lattice::OctreeNode& leaf) const {
+    return s.squared_radius > levels_[leaf.level].squared_radius;
+  }
+
+  /// Queues those of some cells that are bad and whose circumcenter may be inside.
+  void consider(std::span<const std::uint32_t> cells) {
     // In an order that does not depend on that of the cells.
     new_ones_.clear();
     for (const std::uint32_t c : cells)
@@ -154,10 +158,11 @@ class Refinement {
     std::ranges::sort(new_ones_, {}, &Candidate::vertices);
     for (const Candidate& c : new_ones_) {
       const CellShape s = shape(c.vertices);
-      if (!strictly_contains(tree_.bounds, s.center)) continue;
-      const double radius = std::sqrt(s.squared_radius);
-      const bool may_be_large = radius > radius_per_edge * (target - size_.slope() * radius);
-      if (may_be_large || is_skinny(s)) queue_.push(s.squared_radius / s.squared_shortest_edge, c);
+      const Point3 center = rounded(s.center);
+      if (!strictly_contains(tree_.bounds, center)) continue;
+      const lattice::OctreeNode& leaf = tree_.leaf_with(center);
+      if (leaf.place != lattice::NodePlace::outside && (is_skinny(s) || is_large(s, leaf)))
+        queue_.push(s.squared_radius / s.squared_shortest_edge, c);
     }
   }
 
@@ -165,19 +170,15 @@ class Refinement {
     return !d_.is_finite(c.cell) || sorted(d_.cells[c.cell].vertices) != c.vertices;
   }
 
-  /// The circumcenter of a cell, if the cell is bad and a vertex may be there.
+  /// The circumcenter of a bad cell, if a vertex may be there.
   std::optional<NewPoint> find_point(const Candidate& candidate) const {
     const CellShape s = shape(candidate.vertices);
     const Point3 center = rounded(s.center);
-    if (!strictly_contains(tree_.bounds, center)) return {};
     const lattice::OctreeNode& leaf = tree_.leaf_with(center);
-    if (leaf.place == lattice::NodePlace::outside) return {};
-    const bool is_large = size_.is_below(box_of(center), std::sqrt(s.squared_radius) / radius_per_edge);
-    if (!is_large && !is_skinny(s)) return {};
-    const double target = size_.at(center);
-    if (obstacles_.reach(center, options_.clearance * target) || !is_inside(center, leaf)) return {};
+    if (obstacles_.reach(center, levels_[leaf.level].clearance) || !is_inside(center, leaf)) return {};
+    const bool is_large = this->is_large(s, leaf);
     if (!is_large && !is_inside(centroid(candidate.vertices))) return {};
-    return NewPoint{center, target, is_large ? s.squared_radius / 4 : s.squared_shortest_edge};
+    return NewPoint{center, is_large ? s.squared_radius / 4 : s.squared_shortest_edge};
   }
 
   /// Inserts a vertex, unless that keeps the cell or comes too near to another vertex.
@@ -239,8 +240,14 @@ class Refinement {
   const lattice::LatticeOptions& options_;
   const Progress& progress_;
   const double squared_bound_;
-  const lattice::SizeField size_;
+  /// What is allowed where the leaves of the octree have a level.
+  struct Level {
+    double clearance;       ///< from the surface, the least
+    double squared_radius;  ///< of a cell, the greatest
+  };
+
   lattice::Octree tree_;
+  std::vector<Level> levels_;
   const SurfaceObstacles obstacles_;
   delaunay::Delaunay d_;
   delaunay::Insertion insertion_;

@@ -16,7 +16,8 @@ inline constexpr double radius_per_edge = 0.83;
 /// Places interior points by Delaunay refinement (Chew 1989; Ruppert 1995; in space Shewchuk 1998 and 2002): as long as
 /// there is a bad cell, a vertex is inserted at its circumcenter. A cell is bad if it is *skinny*, its circumradius
 /// over its shortest edge being above `options.radius_edge`, or *large*, its circumradius being above `radius_per_edge`
-/// times the target edge length at its circumcenter (`lattice::SizeField`). The cell with the largest of these ratios
+/// times the target edge length at its circumcenter, which is that of the lattices: the leaf of the octree there has it
+/// (`lattice::build_octree`). The cell with the largest of these ratios
 /// comes first, up to 2 percent.
 ///
 /// The surface is fixed, so nothing that is encroached is split. A circumcenter that is not strictly inside the domain,
@@ -29,11 +30,11 @@ inline constexpr double radius_per_edge = 0.83;
 ///
 /// It ends for every `radius_edge`. A skinny cell is also given up if a vertex is nearer to its rounded circumcenter
 /// than the length of its shortest edge, and a large one if a vertex is nearer than half its radius. So no two vertices
-/// get nearer to each other than the two nearest ones of the surface, or than a fixed share of the least target, and in
-/// the domain there is room for finitely many. If `radius_edge` is at least 1, no cell is given up for that, except by
-/// rounding, since there is no vertex in its sphere. If it is more, edges get longer by this factor from one generation
-/// of vertices to the next. At 1 or little more, a short edge of the surface may make all of the mesh fine. Nothing
-/// bounds dihedral angles: there are slivers.
+/// get nearer to each other than the two nearest ones of the surface, or than a fixed share of the least target edge
+/// length, and in the domain there is room for finitely many. If `radius_edge` is at least 1, no cell is given up for
+/// that, except by rounding, since there is no vertex in its sphere. If it is more, edges get longer by this factor
+/// from one generation of vertices to the next. At 1 or little more, a short edge of the surface may make all of the
+/// mesh fine. Nothing bounds dihedral angles: there are slivers.
 ///
 /// Sequential, since each insertion depends on all before it. The points depend on the arguments alone: ties are
 /// decided by ids, and what is rounded is computed in the order of ids.

@@ -237,26 +237,6 @@ bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
   return vertices_.any(bound, size_if_near, [](const SizeTree::Item&) { return true; });
 }
 
-double InterpolatedSizes::at(const Point3& p) const {
-  double least = HUGE_VAL;
-  tetrahedra_.any(
-      least, [&](const Box& other, double size) { return other.meets(box_of(p)) ? size : HUGE_VAL; },
-      [&](const SizeTree::Item& item) {
-        least = std::min(least, least_in(box_of(p), item.number));
-        return false;
-      });
-  if (least < HUGE_VAL) return least;
-  double nearest = HUGE_VAL;
-  std::uint32_t vertex = 0;
-  vertices_.any(
-      nearest, [&](const Box& other, double) { return squared_distance(other, p); },
-      [&](const SizeTree::Item& item) {
-        nearest = squared_distance(item.box, p), vertex = item.number;
-        return false;
-      });
-  return background_.sizes[vertex];
-}
-
 SizeField::SizeField(const DomainSurface& surface, double edge_length, double grading,
                      const BackgroundSizes* background)
     : grading_(grading) {
@@ -332,19 +312,6 @@ bool SizeField::is_below(const Box& box, double bound) const {
     return size + grading_ * std::sqrt(squared_distance(place, box));
   };
   return samples_.any(bound, reach, [](const SizeTree::Item&) { return true; });
-}
-
-double SizeField::at(const Point3& p) const {
-  if (interpolated_) return std::min(largest_, interpolated_->at(p));
-  double least = largest_;
-  const auto reach = [&](const Box& place, double size) {
-    return size + grading_ * std::sqrt(squared_distance(place, p));
-  };
-  samples_.any(least, reach, [&](const SizeTree::Item& item) {
-    least = reach(item.box, item.size);
-    return false;
-  });
-  return least;
 }
 
 }  // namespace ccdt::lattice

@@ -87,8 +87,6 @@ class InterpolatedSizes {
 
   /// Is the size below `bound` anywhere in the box? Only the part of the box inside the mesh counts, if there is one.
   bool is_below(const Box& box, double bound) const;
-  /// The size at a point.
-  double at(const Point3& p) const;
 
  private:
   double least_in(const Box& box, std::uint32_t tetrahedron) const;
@@ -120,13 +118,9 @@ class SizeField {
   double reference() const { return reference_; }
   /// The target is nowhere above this; may be infinite.
   double largest() const { return largest_; }
-  /// The target of two points differs by at most this times their distance; may be infinite.
-  double slope() const { return interpolated_ ? HUGE_VAL : grading_; }
 
   /// Is the target edge length below `bound` anywhere in the box?
   bool is_below(const Box& box, double bound) const;
-  /// The target edge length at a point.
-  double at(const Point3& p) const;
 
  private:
   void sample(const DomainSurface& surface, double edge_length);

@@ -8,6 +8,7 @@
 #include "engine/circumcenters/place_circumcenters.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/lattice/clear_sites.h"
+#include "engine/lattice/octree.h"
 #include "engine/lattice/size_field.h"
 #include "engine/tests/lattice_shapes.h"
 #include "engine/tests/mesh_checks.h"
@@ -105,13 +106,17 @@ std::size_t expect_all_refined(const Shape& shape, const LatticeOptions& options
   const std::vector<Point3> added = refine(shape, options);
   points.insert(points.end(), added.begin(), added.end());
   const delaunay::Delaunay d = delaunay::build_delaunay(points);
-  const lattice::SizeField size(surface_of(shape), options.edge_length, options.grading, options.background);
+  const lattice::Octree tree = build_octree(
+      surface_of(shape),
+      lattice::SizeField(surface_of(shape), options.edge_length, options.grading, options.background), options.kind);
   std::size_t good = 0;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     if (!d.is_finite(c)) continue;
     const auto& v = d.cells[c].vertices;
     const Sphere s = sphere_of({d.point(v[0]), d.point(v[1]), d.point(v[2]), d.point(v[3])});
-    const double target = size.at(s.center);
+    if (!strictly_contains(tree.bounds, s.center)) continue;
+    const lattice::OctreeNode& leaf = tree.leaf_with(s.center);
+    const double target = edge_length_of_cell(options.kind, tree.length(tree.side(leaf)));
     const bool is_skinny = s.radius > more * options.radius_edge * s.shortest_edge,
                is_large = s.radius > more * circumcenters::radius_per_edge * target;
     const bool is_bad = is_skinny || is_large;
