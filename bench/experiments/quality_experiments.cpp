@@ -5,8 +5,10 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "baselines/mesher.h"
+#include "bench/experiments/unit_cells.h"
 #include "engine/base/digits.h"
 
 namespace ccdt::experiments {
@@ -32,20 +34,26 @@ bool is_ok(const RowView& mesh) {
   return mesh.text("status") == "ok";
 }
 
-/// The rows of the table of quality that have these texts, by model.
-std::vector<RowViews> meshes_by_model(const ExperimentResult& result,
-                                      const std::map<std::string, std::string>& texts = {}) {
+/// The rows of a table of meshes, by model.
+std::vector<RowViews> meshes_by_model(const ResultTable& table) {
   std::vector<RowViews> models;
-  for (const RowView& mesh : rows_with(*results::find_table(result, "quality"), texts)) {
+  for (const RowView& mesh : rows_with(table)) {
     if (models.empty() || models.back().front().text("model") != mesh.text("model")) models.emplace_back();
     models.back().push_back(mesh);
   }
   return models;
 }
 
-/// Keeps the models whose meshes were all made successfully.
+/// The rows of the table of quality, by model.
+std::vector<RowViews> meshes_by_model(const ExperimentResult& result) {
+  return meshes_by_model(*results::find_table(result, "quality"));
+}
+
+/// Keeps the models whose meshes were all made successfully and have tetrahedra.
 std::vector<RowViews> whole(std::vector<RowViews> models) {
-  std::erase_if(models, [](const RowViews& meshes) { return !std::ranges::all_of(meshes, is_ok); });
+  std::erase_if(models, [](const RowViews& meshes) {
+    return !std::ranges::all_of(meshes, [](const RowView& m) { return is_ok(m) && m.number("tetrahedra") > 0; });
+  });
   return models;
 }
 
@@ -110,36 +118,75 @@ void conclude_mesher_quality(ExperimentResult& result) {
   result.tables.insert(result.tables.begin() + 1, verdicts);
 }
 
+/// The tables of meshes of different lattices, and what they are in words.
+constexpr std::array<std::pair<const char*, const char*>, 3> lattice_meshes = {
+    {{"inside", "away from the surface"}, {"whole", "in whole meshes, unimproved"}, {"improved", "after improvement"}}};
+
+/// The meshes that have these texts in a table, in the columns of a table of meshes by lattice.
+ResultTable lattice_table(const ResultTable& from, const std::map<std::string, std::string>& texts, std::string name,
+                          std::string title) {
+  ResultTable table = table_of(std::move(name), std::move(title), {});
+  constexpr std::array<std::string_view, 9> kept = {"model",           "lattice", "status",  "tetrahedra",
+                                                    "mean_r",          "p99_r",   "worst_r", "smallest_dihedral",
+                                                    "largest_dihedral"};
+  for (const std::string_view column : kept) table.columns.push_back(from.columns[column_of(from, column)]);
+  for (const RowView& mesh : rows_with(from, texts)) {
+    ResultRow& row = table.rows.emplace_back();
+    for (const std::string_view column : kept) row.cells.push_back(cell(from, *mesh.row, column));
+    row.runs = mesh.row->runs;
+  }
+  return table;
+}
+
 /// The number of cases in which each lattice is the best by each criterion, alone or with others.
 ResultTable best_lattices_table(const ExperimentResult& result) {
   ResultTable table =
-      table_of("best", "The best lattice",
-               {label_column("criterion", "by"), label_column("improved"),
+      table_of("best", "The best lattice in meshes",
+               {label_column("criterion", "by"), label_column("meshes"),
                 figure_column("confirmed", "FCC alone is the best in every case"), figure_column("cases"),
                 figure_column("fcc", "FCC best"), figure_column("bcc", "BCC best"), figure_column("sc", "SC best")});
-  for (const std::string improved : {"no", "yes"})
+  for (const auto& [name, words] : lattice_meshes)
     for (const std::string_view criterion : all_criteria) {
-      const auto models = whole(meshes_by_model(result, {{"improved", improved}}));
+      const auto models = whole(meshes_by_model(*results::find_table(result, name)));
       const auto best = [&](std::size_t lattice) { return best_in(models, lattice, criterion); };
       const bool is_confirmed = !models.empty() && best(0) == models.size() && best(1) == 0 && best(2) == 0;
-      add_row(table, {}, in_words(criterion), improved, is_confirmed, std::uint64_t{models.size()}, best(0), best(1),
+      add_row(table, {}, in_words(criterion), name, is_confirmed, std::uint64_t{models.size()}, best(0), best(1),
               best(2));
     }
   return table;
 }
 
-void conclude_lattices(ExperimentResult& result) {
-  const ResultTable table = best_lattices_table(result);
-  for (const std::string improved : {"no", "yes"})
+/// By which criteria is FCC the best in meshes, and by which is it not?
+std::vector<std::string> mesh_findings(const ResultTable& best) {
+  std::vector<std::string> findings;
+  for (const auto& [name, words] : lattice_meshes)
     for (const std::string confirmed : {"yes", "no"}) {
       std::vector<std::string> criteria;
-      for (const RowView& row : rows_with(table, {{"improved", improved}, {"confirmed", confirmed}}))
+      for (const RowView& row : rows_with(best, {{"meshes", name}, {"confirmed", confirmed}}))
         if (row.count("cases") > 0) criteria.push_back(row.text("criterion"));
       if (criteria.empty()) continue;
-      result.findings.push_back("That FCC is best is " + std::string(confirmed == "yes" ? "" : "not ") + "confirmed " +
-                                (improved == "yes" ? "after" : "before") + " improvement by: " + joined(criteria));
+      findings.push_back("That FCC is best is " + std::string(confirmed == "yes" ? "" : "not ") + "confirmed " + words +
+                         " by: " + joined(criteria));
     }
-  result.tables.insert(result.tables.begin(), table);
+  return findings;
+}
+
+/// The unit cells come first, because the claim is about them; then the meshes: inside, whole, improved.
+void conclude_lattices(ExperimentResult& result) {
+  ResultTable& quality = *std::ranges::find(result.tables, "quality", &ResultTable::name);
+  ResultTable& inside = *std::ranges::find(result.tables, "inside", &ResultTable::name);
+  inside = lattice_table(inside, {}, inside.name, inside.title);
+  std::vector<ResultTable> tables = {
+      unit_cells_table(), inside, lattice_table(quality, {{"improved", "no"}}, "whole", "Whole meshes, unimproved"),
+      lattice_table(quality, {{"improved", "yes"}}, "improved", "Whole meshes, improved")};
+  tables.insert(tables.begin() + 1, unit_cell_criteria_table(tables.front()));
+  quality.is_data = true;  // for charts; its figures are in the tables of whole meshes
+  std::erase_if(result.tables, [](const ResultTable& table) { return table.name == "inside"; });
+  result.tables.insert(result.tables.begin(), tables.begin(), tables.end());
+  const ResultTable best = best_lattices_table(result);
+  result.findings = unit_cell_findings(result.tables[1]);
+  append(result.findings, mesh_findings(best));
+  result.tables.insert(result.tables.begin() + 2, best);
 }
 
 /// The number of cases in which each part is the best, alone or with others.
@@ -256,23 +303,26 @@ StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::strin
 }
 
 StudyPlan lattices_plan() {
-  StudyPlan plan{
-      .experiment = "lattices",
-      .models = names_of_paper_models(),
-      .labels = {label_column("lattice"), label_column("improved")},
-      .definitions = {"The paper, section 3: in a unit cell, the tetrahedra of the FCC lattice are better than those "
-                      "of other lattices.",
-                      "All lattices have the same number of vertices per volume, and the same surface.",
-                      "The claim is confirmed by a measure if FCC alone is the best in every case.",
-                      "Improvement stops at a target: lattices that all reach it differ in worst values by chance."},
-      .conclude = conclude_lattices,
-      .once = true};
+  StudyPlan plan{.experiment = "lattices",
+                 .models = names_of_paper_models(),
+                 .labels = {label_column("lattice"), label_column("improved")},
+                 .definitions = unit_cell_definitions(),
+                 .conclude = conclude_lattices,
+                 .once = true};
+  append(plan.definitions, std::vector<std::string>{
+                               "Meshes: all lattices have the same number of vertices per volume and the same surface.",
+                               "Inside: tetrahedra of the unimproved mesh none of whose vertices is on the surface, or "
+                               "joined by an edge to one that is.",
+                               "In meshes, FCC is confirmed as the best by a measure if it alone is in every case.",
+                               "Improvement stops at a target: lattices that all reach it differ in worst values by "
+                               "chance."});
   for (const bool improved : {false, true})
     for (const std::string name : {"fcc", "bcc", "sc"})
-      plan.variants.push_back({name + (improved ? " improved" : ""),
-                               "ccdt",
-                               {"--lattice", name, "--improve", improved ? "all" : "none"},
-                               {name, improved ? "yes" : "no"}});
+      plan.variants.push_back({.name = name + (improved ? " improved" : ""),
+                               .mesher = "ccdt",
+                               .words = {"--lattice", name, "--improve", improved ? "all" : "none"},
+                               .labels = {name, improved ? "yes" : "no"},
+                               .measures_inside = !improved});
   return plan;
 }
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "baselines/mesher_input.h"
 #include "bench/count_search.h"
+#include "bench/experiments/inside_cells.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
@@ -17,6 +19,8 @@
 
 namespace ccdt::experiments {
 namespace {
+
+constexpr const char* mesh_format = ".vtu";  ///< of meshes that are kept
 
 /// The models of the plan and the user's files. Models come without a file: they are made for each edge length.
 std::vector<SurfaceFile> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
@@ -111,14 +115,23 @@ std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const Ev
   std::vector<cases::Case> all;
   for (std::size_t i = 0; i < edge_lengths.size(); ++i)
     all.push_back(study.case_of(study.plan.variants[i], surface.file, edge_lengths[i]));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (study.plan.variants[i].measures_inside) all[i].mesh_ending = mesh_format;
   std::vector<cases::MeasuredCase> measured = study.runner.run(all);
   if (study.plan.once) return measured;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (is_short(study.options, measured[i])) all[i] = timed_case(study.options, study.title, all[i], 0);
     const bool is_small = count_of(measured[i]).value_or(most_kept_tetrahedra + 1) <= most_kept_tetrahedra;
-    if (study.plan.keeps_meshes && is_small) all[i].mesh_ending = ".vtu";
+    if (study.plan.keeps_meshes && is_small) all[i].mesh_ending = mesh_format;
   }
   return study.runner.run(all);
+}
+
+/// \pre its mesh was kept, if the case has not failed
+InsideQuality measure_inside(const cases::Runner& runner, const cases::MeasuredCase& measured) {
+  if (measured.failed()) return {};
+  const mesh::TetMesh inside = inside_cells(cases::mesh_of(runner, measured));
+  return {inside.tetrahedra.size(), bench::measure_quality(inside)};
 }
 
 void measure_source(const SourceStudy& study, std::vector<QualityRow>& rows, std::vector<EvenSurface>& surfaces) {
@@ -126,9 +139,12 @@ void measure_source(const SourceStudy& study, std::vector<QualityRow>& rows, std
   const std::vector<double> edge_lengths = edge_lengths_of(study, surface);
   std::vector<cases::MeasuredCase> measured = run_variants(study, surface, edge_lengths);
   const std::uint64_t reference = measured.front().first.counts.tetrahedra;
-  for (std::size_t i = 0; i < measured.size(); ++i)
-    rows.push_back(
-        {{std::move(measured[i])}, study.source.name, study.plan.variants[i].labels, edge_lengths[i], reference});
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    const QualityVariant& variant = study.plan.variants[i];
+    std::optional<InsideQuality> inside;
+    if (variant.measures_inside) inside = measure_inside(study.runner, measured[i]);
+    rows.push_back({{std::move(measured[i])}, study.source.name, variant.labels, edge_lengths[i], reference, inside});
+  }
 }
 
 std::vector<std::string> study_definitions() {
@@ -197,6 +213,31 @@ ResultTable quality_table(const StudyPlan& plan, std::span<const QualityRow> row
   return table_of_rows("quality", "Quality", columns, rows);
 }
 
+/// The rows that have tetrahedra inside measured; figures are empty if there are none.
+ResultTable inside_table(const StudyPlan& plan, std::span<const QualityRow> rows) {
+  using Q = const bench::Quality&;
+  const auto figure = [](Column column, double (*value)(Q)) {
+    return RowColumn<QualityRow>(std::move(column), [value](const QualityRow& row) {
+      return cell_if(row.inside->tetrahedra > 0, value(row.inside->quality));
+    });
+  };
+  RowColumns<QualityRow> columns = label_columns(plan);
+  append(columns,
+         RowColumns<QualityRow>{
+             status_column(),
+             {figure_column("tetrahedra"),
+              [](const QualityRow& row) { return cell_if(row.ok(), row.inside->tetrahedra); }},
+             figure(figure_column("mean_r"), [](Q q) { return q.r.mean; }),
+             figure(figure_column("p99_r", "99% of r below"), [](Q q) { return q.r.p99; }),
+             figure(figure_column("worst_r"), [](Q q) { return q.r.max; }),
+             figure(figure_column("smallest_dihedral", "", "degrees"), [](Q q) { return q.dihedral_degrees.min; }),
+             figure(figure_column("largest_dihedral", "", "degrees"), [](Q q) { return q.dihedral_degrees.max; })});
+  std::vector<QualityRow> measured;
+  std::ranges::copy_if(rows, std::back_inserter(measured),
+                       [](const QualityRow& row) { return row.inside.has_value(); });
+  return table_of_rows("inside", "Inside, away from the surface", columns, measured);
+}
+
 /// One row per bin. All histograms have the same number of bins.
 template <class HistogramOf>
 ResultTable histogram_table(const StudyPlan& plan, std::span<const QualityRow> rows, std::string name,
@@ -259,6 +300,8 @@ ExperimentResult study_result(const StudyPlan& plan, std::span<const QualityRow>
       histogram_table(plan, rows, "dihedral_histogram", "Histogram of the dihedral angles", "degrees",
                       [](const bench::Quality& q) -> const bench::Histogram& { return q.dihedral_degrees.histogram; }),
       surfaces_table(surfaces)};
+  if (std::ranges::any_of(plan.variants, &QualityVariant::measures_inside))
+    result.tables.insert(result.tables.begin(), inside_table(plan, rows));
   for (const QualityRow& row : rows) {
     add_problem_of(row, result);
     if (row.ok() && !row.is_comparable())
@@ -291,7 +334,7 @@ ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& 
   if (!plan.once) result.definitions.push_back(short_case_words(options));
   for (const std::string& problem : problems) add_problem(result, problem);
   for (const QualityRow& row : rows)
-    if (row.ok() && !row.measured.asked.mesh_ending.empty())
+    if (plan.keeps_meshes && row.ok() && !row.measured.asked.mesh_ending.empty())
       result.meshes.push_back(keep_mesh(runner, row.measured, row.model + ", " + row.labels.back()));
   return result;
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
+#include "bench/quality.h"
 #include "bench/surface_measures.h"
 
 namespace ccdt::experiments {
@@ -16,6 +18,7 @@ struct QualityVariant {
   std::string mesher;                    ///< as in `--mesher`
   std::vector<std::string> words;        ///< options of `ccdt mesh`, but for `--edge-length` and `--grading`
   std::vector<std::string> labels = {};  ///< labels of its rows: a value for each label of the plan
+  bool measures_inside = false;          ///< also measure the tetrahedra away from the surface
 };
 
 /// The plan of a study: what is measured on every surface, and what is derived from it.
@@ -42,12 +45,19 @@ struct EvenSurface {
   bench::SurfaceAngles angles;
 };
 
+/// The tetrahedra of a mesh away from its surface (`inside_cells`).
+struct InsideQuality {
+  std::uint64_t tetrahedra = 0;
+  bench::Quality quality = {};
+};
+
 /// A variant on a surface. Seconds are of meshing.
 struct QualityRow : CaseRow {
   std::string model;
   std::vector<std::string> labels;
-  double edge_length = 0;       ///< target edge length
-  std::uint64_t reference = 0;  ///< tetrahedra of the first variant
+  double edge_length = 0;                    ///< target edge length
+  std::uint64_t reference = 0;               ///< tetrahedra of the first variant
+  std::optional<InsideQuality> inside = {};  ///< if its variant measures it; without tetrahedra if the run failed
   /// Is the number of tetrahedra comparable?
   bool is_comparable() const;
 };
@@ -63,7 +73,8 @@ inline constexpr std::uint64_t most_kept_tetrahedra = 150000;
 /// \throw OutputError  a file of the experiment cannot be written
 ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& runner, const StudyPlan& plan);
 
-/// The tables that all studies have (one row per mesh, histograms, surfaces), and those that the plan adds.
+/// The tables that all studies have (one row per mesh, histograms, surfaces), one of the tetrahedra inside if the plan
+/// measures them, and those that it adds.
 ExperimentResult study_result(const StudyPlan& plan, std::span<const QualityRow> rows,
                               std::span<const EvenSurface> surfaces);
 

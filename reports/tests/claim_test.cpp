@@ -97,27 +97,32 @@ TEST(Claims, AreAllNotTestableWithoutExperiments) {
   }
 }
 
-results::ExperimentResult lattices(double fcc, double bcc) {
+/// The criteria of the unit cells by which FCC alone is the best.
+results::ExperimentResult lattices(const std::vector<std::string>& best_by) {
   results::ExperimentResult result{.name = "lattices"};
-  results::ResultTable best{"best",
-                            "The best lattice",
-                            {{"criterion", "by", results::ColumnKind::label},
-                             {"improved", "improved", results::ColumnKind::label},
-                             {"confirmed", "confirmed"},
-                             {"cases", "cases"},
-                             {"fcc", "FCC"},
-                             {"bcc", "BCC"},
-                             {"sc", "SC"}}};
-  const std::string confirmed = fcc == 3 && bcc == 0 ? "yes" : "no";
-  best.rows = {{{std::string("mean r"), std::string("no"), confirmed, 3.0, fcc, bcc, 0.0}, {}}};
-  result.tables = {best};
+  results::ResultTable criteria{"unit_cell_criteria",
+                                "The best unit cell",
+                                {{"criterion", "by", results::ColumnKind::label},
+                                 {"confirmed", "FCC alone is the best"},
+                                 {"fcc", "FCC"},
+                                 {"best_other", "best of the others"},
+                                 {"best_other_lattices", "of"}}};
+  for (const std::string criterion : {"mean r", "worst r", "smallest dihedral"}) {
+    const bool is_best = std::ranges::find(best_by, criterion) != best_by.end();
+    criteria.rows.push_back(
+        {{criterion, std::string(is_best ? "yes" : "no"), 1.1, 1.2, std::string("body-centered cubic")}, {}});
+  }
+  result.tables = {criteria};
   return result;
 }
 
-TEST(QualityClaims, JudgeFccByTheCasesInWhichItIsTheBest) {
-  EXPECT_EQ(verdict_of(lattices(3, 0), "fcc-is-best"), reports::ClaimVerdict::confirmed);
-  EXPECT_EQ(verdict_of(lattices(2, 1), "fcc-is-best"), reports::ClaimVerdict::reservation);
-  EXPECT_EQ(verdict_of(lattices(1, 2), "fcc-is-best"), reports::ClaimVerdict::refuted);
+TEST(QualityClaims, JudgeFccByItsUnitCell) {
+  EXPECT_EQ(verdict_of(lattices({"mean r", "worst r", "smallest dihedral"}), "fcc-is-best"),
+            reports::ClaimVerdict::confirmed);
+  EXPECT_EQ(verdict_of(lattices({"mean r"}), "fcc-is-best"), reports::ClaimVerdict::reservation);
+  EXPECT_EQ(verdict_of(lattices({"worst r"}), "fcc-is-best"), reports::ClaimVerdict::reservation);
+  EXPECT_EQ(verdict_of(lattices({"smallest dihedral"}), "fcc-is-best"), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict_of(lattices({}), "fcc-is-best"), reports::ClaimVerdict::refuted);
 }
 
 }  // namespace

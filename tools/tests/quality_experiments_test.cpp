@@ -48,10 +48,18 @@ TEST_F(QualityExperiments, CompareMeshersAtEqualNumbersOfTetrahedra) {
 }
 
 TEST_F(QualityExperiments, CompareLatticesOnTheSameSurface) {
-  const Json rows = rows_of(reproduce("lattices", "--scale 2000"), "quality");
+  const Json lattices = reproduce("lattices", "--scale 4000");
+  const Json rows = rows_of(lattices, "quality"), inside = rows_of(lattices, "inside");
   ASSERT_EQ(rows.size(), 6u);
-  for (std::size_t i = 0; i < 3; ++i)  // improvement never makes the worst worse
+  ASSERT_EQ(inside.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {  // improvement never makes the worst worse
     EXPECT_LE(rows[i + 3]["values"]["worst_r"], rows[i]["values"]["worst_r"]) << rows[i];
+    EXPECT_GT(inside[i]["values"]["tetrahedra"], 100) << inside[i];
+  }
+  // Inside, the meshes have the tetrahedra of the unit cells.
+  EXPECT_NEAR(inside[0]["values"]["worst_r"].get<double>(), 1.26014, 1e-4);
+  EXPECT_NEAR(inside[1]["values"]["worst_r"].get<double>(), 1.07583, 1e-4);
+  EXPECT_EQ(rows_of(lattices, "unit_cells").size(), 14u);
 }
 
 TEST_F(QualityExperiments, TakeTheImprovementApart) {

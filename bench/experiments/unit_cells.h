@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/experiments/experiment.h"
+
+namespace ccdt::experiments {
+
+/// The Delaunay tetrahedra of one period of each of the 14 Bravais lattices, with its best free parameters: one row per
+/// lattice. Always the same.
+ResultTable unit_cells_table();
+
+/// FCC beside the best of the other lattices, by each criterion: the mean and the worst r first.
+/// \param unit_cells  as `unit_cells_table` makes it
+ResultTable unit_cell_criteria_table(const ResultTable& unit_cells);
+
+/// By which criteria is FCC the best, and which lattice is it by the others?
+std::vector<std::string> unit_cell_findings(const ResultTable& criteria);
+
+/// What the two tables mean, and the rule of the verdict.
+std::vector<std::string> unit_cell_definitions();
+
+}  // namespace ccdt::experiments
