@@ -10,6 +10,7 @@
 #include "bench/results/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
+#include "reports/result_text.h"
 
 namespace ccdt::reports {
 namespace {
@@ -166,7 +167,7 @@ ReportChart made_for(ReportChart chart, const AxisPair& axes) {
   for (const auto& [word, axis] : {std::pair("first", axes.first), std::pair("second", axes.second)})
     for (std::string* text : {&chart.name, &chart.title, &chart.caption, &chart.spec}) {
       *text = replaced(*text, std::string("{") + word + "}", axis.column->name);
-      *text = replaced(*text, std::string("{") + word + " title}", axis.column->title);
+      *text = replaced(*text, std::string("{") + word + " title}", heading(*axis.column));
     }
   return chart;
 }

@@ -64,10 +64,6 @@ std::string cell_text(const Cell& cell) {
   return "";
 }
 
-std::string heading(const Column& column) {
-  return column.unit.empty() ? column.title : column.title + " (" + column.unit + ")";
-}
-
 bool is_empty(const ResultTable& table, std::size_t column) {
   return std::ranges::all_of(table.rows, [&](const ResultRow& row) { return cell_text(row.cells[column]).empty(); });
 }
@@ -257,6 +253,10 @@ std::string volumes(const verify::Verification& verification) {
 }
 
 }  // namespace
+
+std::string heading(const Column& column) {
+  return column.unit.empty() ? column.title : column.title + " (" + column.unit + ")";
+}
 
 std::string to_terminal(const TextTable& table) {
   const auto widths = column_widths(table, 0);

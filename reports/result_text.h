@@ -12,6 +12,9 @@ namespace ccdt::reports {
 using results::ExperimentResult;
 using results::ResultTable;
 
+/// The title of a column, with its unit.
+std::string heading(const results::Column& column);
+
 /// A table of texts: the first row is the heading, the first column is aligned left and the others right. Rows may be
 /// short.
 using TextTable = std::vector<std::vector<std::string>>;

@@ -29,7 +29,7 @@ std::string option_column(const std::string& option) {
 std::vector<Column> label_columns(const Sweep& sweep) {
   std::vector<Column> columns = {{"input", "input", ColumnKind::label},
                                  {"model", "model", ColumnKind::label},
-                                 {"edge_length", "edge length", ColumnKind::figure},
+                                 {"edge_length", "edge length", ColumnKind::figure, "mm"},
                                  {"mesher", "mesher", ColumnKind::label}};
   for (const std::string& option : sweep.options)
     columns.push_back({option_column(option), with_spaces(option), ColumnKind::label});
