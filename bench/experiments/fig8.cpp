@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "baselines/mesher.h"
+#include "bench/experiments/growth.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/io/plc_files.h"
@@ -13,50 +15,109 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr int size_count = 8;  ///< over two decades: a factor of 1.93 from one to the next
-
-/// A way to mesh the coarsest sizes: their number at small scales, and at scales where claims are judged. With the same
-/// scatter, the interval of an exponent is half as wide with seven sizes as with five.
+/// A way to mesh, and its largest mesh, in the wanted number of tetrahedra.
 struct Strategy {
   std::string label, mesher, words;
-  int sizes, sizes_from_paper_scale = sizes;
+  cases::SecondsOf seconds = whole_seconds;
+  double most;
 };
-constexpr double paper_scale = 50000;  ///< tetrahedra
+constexpr double all_sizes = 1e6;
 
 const std::vector<Strategy> strategies = {
-    {"with check", "ccdt", "--delaunay insert --face-protection on", size_count},
-    {"with check, wrap", "ccdt", "--delaunay wrap --face-protection on", 5, 7},
-    {"without check", "ccdt", "--delaunay insert --face-protection off", 5},
-    {"without check, paper's grid", "ccdt", "--delaunay insert --face-protection off --locator grid", 5, 7},
-    {"CGAL Delaunay, same vertices", "cgal-delaunay", "", 6},
-    {"TetGen, its own vertices", "tetgen", "", 5, 7},
-    {"CGAL Mesh_3, its own vertices", "cgal-mesh3", "--improve none", 3}};
+    {"paper, with check", "ccdt", "--strategies paper --face-protection on", cdt_seconds, all_sizes},
+    {"paper, without check", "ccdt", "--strategies paper --face-protection off", cdt_seconds, all_sizes},
+    {"default, with check", "ccdt", "--face-protection on", cdt_seconds, all_sizes},
+    {"Delaunay refinement, ours", "ccdt", "--lattice refinement", whole_seconds, 10},
+    {"TetGen, its own vertices", "tetgen", "", whole_seconds, 10},
+    {"CGAL Mesh_3, its own vertices", "cgal-mesh3", "--improve none", whole_seconds, 1}};
+
+/// The sizes of a model: from the coarsest that has the density of its edge length, to a number of tetrahedra, in the
+/// wanted number. One model covers the three decades that a fit of work needs; it is the one with the fewest vertices.
+struct SizeRange {
+  std::string_view model;
+  double coarsest;  ///< edge length, mm
+  double most;
+};
+constexpr std::array<SizeRange, 3> ranges = {{{"piston", 8, 10}, {"bracket", 8, 40}, {"stepping-pole", 6, 10}}};
+constexpr double small_scale = 50000, most_at_small_scales = 2.5;  ///< where minutes are wanted, not verdicts
+
+/// From one size to the next, tetrahedra grow by this factor: four sizes in a decade.
+const double step = std::pow(10, 0.25);
 
 const std::vector<std::string> definitions = {
     "Models at uniform density: the lattice has the edge length of the surface everywhere (--grading 0).",
     "Seconds of the CDT: the stages delaunay, face_check, front and label of a run.",
-    "With check: Delaunay by insertion. Wrap: Delaunay face by face in a uniform grid, as in the paper.",
-    "Without check: Delaunay by insertion, and every face goes through the front.",
-    "Paper's grid: the front finds its vertices with the uniform grid of section 4 (--locator grid).",
+    "Paper: all of the paper's strategies (--strategies paper): Delaunay face by face in a uniform grid, the front "
+    "with "
+    "the same grid and the paper's visibility tests, midpoints.",
+    "Default: the engine as it is used, whose Delaunay tetrahedralizations are inserted and its lattice cores written "
+    "down.",
+    "Delaunay refinement, ours: circumcenters instead of a lattice, on the same surface; seconds of the whole mesh.",
     "Seconds of the other meshers: the call of the library that makes the mesh.",
-    "Same vertices: all vertices of our mesh with the check. Its own: refined to the edge length of the surface.",
-    "All other options are the defaults; the records of the runs list them.",
+    "All strategies and sizes are run in one random order, so that a drift of the machine is no part of an exponent.",
+    "Work: exact counts of what a stage did. They have no noise; the interval of their exponents comes from bends.",
+    "Exponent: slope of the logarithms over those of the size, with the interval of Student's t for 95%.",
+    "Linear: the whole interval is within 0.1 of 1. A fit of times is judged from two decades and eight sizes on, one "
+    "of work from three decades on; neither if the sizes scatter by more than 15%.",
+    "Better: n or n log n, whichever makes the measurements at least twenty times as likely; else they cannot tell.",
     "Wrap's Delaunay stage does not include the tetrahedralization of the input alone, which edge protection needs.",
-    "Exponent: slope of the logarithms of median seconds over those of vertices; 1 is linear.",
-    "Slope: that of the straight line through the median seconds over the vertices.",
-    "R2: the share of the variance that the line explains.",
-    "Intervals of both are Student's t for 95% confidence.",
-    "Mesh_3 takes part from 50,000 tetrahedra on (--scale paper): because of small features, it cannot make fewer.",
+    "Meshes with more than twice the wanted number of tetrahedra are not verified.",
+    "Mesh_3 takes part from 50,000 tetrahedra on (--scale full): because of small features, it cannot make fewer.",
 };
 
 using Series = std::span<const Fig8Row>;
 
-/// The growth of some seconds of a series with the number of vertices.
+/// What grows, of a run.
+struct Quantity {
+  std::string name;
+  const char *kind, *over;  ///< "time" or "work"; "vertices" or "front tetrahedra"
+  std::function<double(const cases::MeasuredCase&)> of;
+  std::uint64_t MeshCounts::*size;
+};
+
+const std::string of_time = "time", of_work = "work";
+
+Quantity time_of(std::string name, cases::SecondsOf seconds, const char* over = "vertices",
+                 std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
+  return {
+      std::move(name), of_time.c_str(), over,
+      [seconds = std::move(seconds)](const cases::MeasuredCase& m) { return bench::median(samples_of(m, seconds)); },
+      size};
+}
+
+Quantity work_of(std::string name, Work StageWork::*stage, std::uint64_t Work::*count, const char* over = "vertices",
+                 std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
+  return {std::move(name), of_work.c_str(), over,
+          [stage, count](const cases::MeasuredCase& m) { return static_cast<double>(m.first.work.*stage.*count); },
+          size};
+}
+
+/// What is fitted of our runs. A stage that did nothing has no fit.
+std::vector<Quantity> quantities_of(const Fig8Row& row) {
+  if (row.measured.asked.mesher != "ccdt" || row.strategy.starts_with("Delaunay refinement"))
+    return {time_of("mesh", row.seconds)};
+  const char* const per = "front tetrahedra";
+  std::vector<Quantity> all = {time_of("cdt", row.seconds), time_of("delaunay", &StageSeconds::delaunay),
+                               time_of("front", &StageSeconds::front, per, &MeshCounts::front_tetrahedra)};
+  for (const auto& [name, count] : {std::pair("Delaunay: vertices examined", &Work::vertices_examined),
+                                    {"Delaunay: grid cells", &Work::grid_cells},
+                                    {"Delaunay: cells created", &Work::cells_created}})
+    all.push_back(work_of(name, &StageWork::delaunay, count));
+  for (const auto& [name, count] : {std::pair("front: candidates", &Work::front_candidates),
+                                    {"front: visibility tests", &Work::visibility_tests},
+                                    {"front: grid cells", &Work::grid_cells}})
+    all.push_back(work_of(name, &StageWork::front, count, per, &MeshCounts::front_tetrahedra));
+  return all;
+}
+
+/// The growth of a quantity in a series.
 struct Fit {
   Series series;
-  std::string quantity;
-  std::vector<double> vertices = {}, medians = {};  ///< points of successful runs that took measurable time
-  bench::LineFit line = {}, power = {};
+  Quantity quantity;
+  Growth growth = {};
+  bench::LineFit line = {};
+  std::string not_judged = {};  ///< why
+  double least = 0, most = 0;   ///< size
 };
 
 /// An end of the straight line through the points.
@@ -87,20 +148,26 @@ const Fig8Row& first_point(const Row& row) {
   return row.series.front();
 }
 
-Estimate in_microseconds(const Estimate& e) {
-  return {1e6 * e.value, 1e6 * e.low, 1e6 * e.high};
+bool is_time(const Fit& fit) {
+  return fit.quantity.kind == of_time;
 }
 
-const RowColumns<Fit> fit_columns = series_columns<Fit>(
-    first_point,
-    {{label_column("quantity", "seconds of"), &Fit::quantity},
-     {figure_column("points", "sizes"), [](const Fit& fit) { return fit.vertices.size(); }},
-     {time_column("exponent"), [](const Fit& fit) { return fit.power.slope; }},
-     {time_column("exponent_r2", "R2 of the exponent"), [](const Fit& fit) { return fit.power.r_squared; }},
-     {time_column("microseconds_per_vertex", "slope per vertex", "us"),
-      [](const Fit& fit) { return in_microseconds(fit.line.slope); }},
-     {time_column("seconds_at_zero", "", "s"), [](const Fit& fit) { return fit.line.intercept; }},
-     {time_column("r2", "R2 of the line"), [](const Fit& fit) { return fit.line.r_squared; }}});
+/// The columns of fits of times or of work, whose exponents change with the machine or do not.
+RowColumns<Fit> fit_columns(Column (*exponent_column)(std::string, std::string, std::string)) {
+  return series_columns<Fit>(
+      first_point,
+      {{label_column("quantity", "of"), [](const Fit& fit) { return fit.quantity.name; }},
+       {label_column("over"), [](const Fit& fit) { return std::string(fit.quantity.over); }},
+       {figure_column("sizes"), [](const Fit& fit) { return std::uint64_t{fit.growth.sizes}; }},
+       {figure_column("decades"), [](const Fit& fit) { return fit.growth.decades; }},
+       {exponent_column("exponent", "", ""), [](const Fit& fit) { return fit.growth.power.slope; }},
+       {exponent_column("scatter", "", ""), [](const Fit& fit) { return fit.growth.scatter; }},
+       {exponent_column("per_unit", "slope per unit", ""),
+        [](const Fit& fit) { return is_time(fit) ? 1e6 * fit.line.slope.value : fit.line.slope.value; }},
+       {note_column("better", "n or n log n"), [](const Fit& fit) { return words_of(fit.growth.better); }},
+       {label_column("judged"), [](const Fit& fit) { return std::string(fit.not_judged.empty() ? "yes" : "no"); }},
+       {note_column("why_not", "why it is not judged"), &Fit::not_judged}});
+}
 
 const RowColumns<Fig8Row> point_columns =
     series_columns<Fig8Row>([](const Fig8Row& row) -> const Fig8Row& { return row; },
@@ -115,39 +182,33 @@ const RowColumns<LineEnd> line_columns = series_columns<LineEnd>(
     first_point,
     {{figure_column("vertices"), &LineEnd::vertices}, {time_column("seconds", "", "s"), &LineEnd::seconds}});
 
-/// None with fewer than three points.
-void add_fit(Series series, const char* quantity, const cases::SecondsOf& seconds, std::vector<Fit>& fits) {
-  Fit fit{series, quantity};
+/// None with fewer than three points that are not zero.
+void add_fit(Series series, const Quantity& quantity, std::vector<Fit>& fits) {
+  std::vector<double> sizes, values;
   for (const Fig8Row& row : series) {
-    if (!row.ok()) continue;
-    const double median = bench::median(samples_of(row.measured, seconds));
-    if (median <= 0) continue;  // shorter than a tick of the clock
-    fit.vertices.push_back(static_cast<double>(row.measured.first.counts.vertices));
-    fit.medians.push_back(median);
+    if (!row.ok() || row.measured.counted.empty()) continue;
+    const double value = quantity.of(row.measured);
+    const auto size = static_cast<double>(row.measured.first.counts.*quantity.size);
+    if (value <= 0 || size <= 1) continue;
+    sizes.push_back(size);
+    values.push_back(value);
   }
-  if (fit.vertices.size() < 3) return;
-  fit.line = bench::fit_line(fit.vertices, fit.medians);
-  fit.power = bench::fit_power(fit.vertices, fit.medians);
+  if (sizes.size() < 3 || std::ranges::min(sizes) == std::ranges::max(sizes)) return;
+  Fit fit{series, quantity, growth_of(sizes, values), bench::fit_line(sizes, values)};
+  fit.not_judged = why_not_judged(fit.growth, is_time(fit) ? rule_for_times : rule_for_work);
+  fit.least = std::ranges::min(sizes), fit.most = std::ranges::max(sizes);
   fits.push_back(std::move(fit));
 }
 
-std::vector<Fit> fits_of(Series series) {
-  std::vector<Fit> fits;
-  const bool is_ours = series.front().measured.asked.mesher == "ccdt";
-  add_fit(series, is_ours ? "cdt" : "mesh", series.front().seconds, fits);
-  if (is_ours) add_fit(series, "delaunay", &StageSeconds::delaunay, fits);
-  if (series.front().strategy.starts_with("without check")) add_fit(series, "front", &StageSeconds::front, fits);
-  return fits;
-}
-
-std::string finding_of(Series series, const std::vector<Fit>& fits) {
-  const std::string who = series.front().model + ", " + series.front().strategy + ": ";
-  if (fits.empty()) return who + "too few sizes for a fit";
-  const Estimate& exponent = fits.front().power.slope;
-  return who + "the exponent is " + with_interval(exponent) + "; that it is at most " + rounded(claimed_exponent) +
-         ": " +
-         choose(is_at_most(exponent, claimed_exponent), "holds", "undecided, the bound is within the interval",
-                "does not hold");
+std::string finding_of(const Fit& fit) {
+  const std::string who =
+      fit.series.front().model + ", " + fit.series.front().strategy + ", " + fit.quantity.name + ": ";
+  return who + "the exponent is " + with_interval(fit.growth.power.slope) + ": " +
+         choose(is_linear(fit.growth.power.slope), "linear", "undecided, a bound is within the interval",
+                "not linear") +
+         "; " +
+         (fit.growth.better == Law::cannot_tell ? "n and n log n cannot be told apart"
+                                                : "better described by " + words_of(fit.growth.better));
 }
 
 /// The chosen meshers of this build, and those that the user describes.
@@ -156,79 +217,87 @@ std::vector<Strategy> strategies_of(const ExperimentOptions& options) {
   std::ranges::copy_if(strategies, std::back_inserter(asked),
                        [&](const Strategy& s) { return is_timed(options, s.mesher); });
   for (const std::string& file : described_meshers(options))
-    asked.push_back({baselines::mesher(file).name + ", its own vertices", file, "", 4, 4});
+    asked.push_back({baselines::mesher(file).name + ", its own vertices", file, "", whole_seconds, 1});
   return asked;
 }
 
 /// A size of a model.
 struct ModelSize {
-  int number;  ///< from 0, the coarsest
   double edge_length;
+  double tetrahedra;  ///< about, in the wanted number
   std::filesystem::path surface;
-  std::filesystem::path vertices;  ///< of our mesh
 };
 
-cases::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
-                    const Strategy& strategy) {
-  const bool is_ours = strategy.mesher == "ccdt", takes_vertices = strategy.mesher == "cgal-delaunay";
-  return single_case(options, joined({model.name, strategy.label, "edge length " + rounded(size.edge_length)}),
-                     strategy.mesher, takes_vertices ? size.vertices : size.surface,
-                     words_of(strategy.words + (is_ours ? " --improve none --grading 0" : "")));
-}
-
-/// Sizes from a tenth to ten times the wanted number of tetrahedra, within the limits of the solid. Our mesh of each is
-/// made once, for its vertices.
-std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperModel& model, cases::Runner& runner) {
+std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperModel& model) {
+  const SizeRange& range = *std::ranges::find(ranges, model.name, &SizeRange::model);
+  const double finest = std::ranges::find(models::solids(), model.name, &models::Solid::name)->finest;
+  const double most = options.tetrahedra < small_scale ? most_at_small_scales : range.most;
   std::vector<ModelSize> sizes;
-  const auto solid = std::ranges::find(models::solids(), model.name, &models::Solid::name);
-  for (int i = 0; i < size_count; ++i) {
-    const double decades = 2 * static_cast<double>(i) / (size_count - 1) - 1;
-    const double edge_length = edge_factor(options) * model.edge_length * std::pow(10, -decades / 3);
-    if (edge_length < solid->finest || edge_length > solid->coarsest) continue;
-    const std::string file = "fig8-" + std::string(model.name) + "-" + std::to_string(i) + ".poly";
-    ModelSize& size = sizes.emplace_back(i, edge_length, options.folder / "models" / file);
-    io::write_plc(models::make_solid(model.name, edge_length), size.surface);
-    cases::Case ours = case_of(options, model, size, strategies.front());
-    ours.mesh_ending = ".node";
-    size.vertices = options.folder / mesh_file(runner.run(ours));
+  for (double edge_length = range.coarsest; edge_length >= finest; edge_length /= std::cbrt(step)) {
+    const double tetrahedra = std::pow(edge_factor(options) * model.edge_length / edge_length, 3);
+    if (tetrahedra > most) break;
+    const std::string file = "fig8-" + std::string(model.name) + "-" + std::to_string(sizes.size()) + ".poly";
+    sizes.push_back({edge_length, tetrahedra, options.folder / "models" / file});
+    io::write_plc(models::make_solid(model.name, edge_length), sizes.back().surface);
   }
   return sizes;
 }
 
+cases::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
+                    const Strategy& strategy) {
+  constexpr double most_verified = 2;
+  const bool is_ours = strategy.mesher == "ccdt";
+  cases::Case one = single_case(
+      options, joined({model.name, strategy.label, "edge length " + rounded(size.edge_length)}), strategy.mesher,
+      size.surface, words_of(strategy.words + (is_ours ? " --improve none --steiner keep --grading 0" : "")));
+  one.group = "fig8";
+  one.seconds = strategy.seconds;
+  one.verify = size.tetrahedra <= most_verified;
+  return one;
+}
+
 /// Adds the rows of a model: strategy by strategy, each from the coarsest size.
-void plan_model(const ExperimentOptions& options, const PaperModel& model, cases::Runner& runner,
-                std::vector<Fig8Row>& rows) {
-  const std::vector<ModelSize> sizes = sizes_of(options, model, runner);
-  for (const Strategy& strategy : strategies_of(options)) {
-    const cases::SecondsOf seconds = strategy.mesher == "ccdt" ? cdt_seconds : whole_seconds;
-    const int sizes_of_strategy = options.tetrahedra < paper_scale ? strategy.sizes : strategy.sizes_from_paper_scale;
-    for (const ModelSize& size : sizes) {
-      if (size.number >= sizes_of_strategy) continue;
-      const std::string group = "fig8 " + size.surface.stem().string();
-      const cases::Case asked =
-          timed_case(options, group, case_of(options, model, size, strategy), usual_precision, seconds);
-      rows.push_back({{{asked}, seconds}, model.name, strategy.label, size.edge_length});
-    }
-  }
+void plan_model(const ExperimentOptions& options, const PaperModel& model, std::vector<Fig8Row>& rows) {
+  const std::vector<ModelSize> sizes = sizes_of(options, model);
+  for (const Strategy& strategy : strategies_of(options))
+    for (const ModelSize& size : sizes)
+      if (size.tetrahedra <= strategy.most) {
+        Fig8Row& row = rows.emplace_back();
+        row.measured.asked = case_of(options, model, size, strategy);
+        row.seconds = strategy.seconds;
+        row.model = model.name, row.strategy = strategy.label;
+        row.edge_length = size.edge_length;
+      }
 }
 
 }  // namespace
 
 ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
   ExperimentResult result{.definitions = definitions};
-  std::vector<Fit> fits;
+  std::vector<Fit> times, work;
   std::vector<LineEnd> lines;
   for (const Series series : neighbors(
            rows, [](const Fig8Row&a, const Fig8Row&b) { return a.model == b.model && a.strategy == b.strategy; })) {
-    const std::vector<Fit> of_series = fits_of(series);
-    result.findings.push_back(finding_of(series, of_series));
-    append(fits, of_series);
-    if (of_series.empty()) continue;
-    const Fit& fit = of_series.front();
-    for (const double vertices : {std::ranges::min(fit.vertices), std::ranges::max(fit.vertices)})
+    const std::size_t before = times.size();
+    for (const Quantity& quantity : quantities_of(series.front()))
+      add_fit(series, quantity, quantity.kind == of_time ? times : work);
+    if (times.size() == before) continue;
+    const Fit& fit = times[before];
+    for (const double vertices : {fit.least, fit.most})
       lines.push_back({series, vertices, fit.line.intercept + vertices * fit.line.slope.value});
   }
-  result.tables = {table_of_rows("fits", "Growth of the seconds with the number of vertices", fit_columns, fits),
+  for (const std::vector<Fit>* fits : {&work, &times}) {
+    const auto judged = [](const Fit& fit) { return fit.not_judged.empty(); };
+    for (const Fit& fit : *fits)
+      if (judged(fit)) result.findings.push_back(finding_of(fit));
+    const auto others = std::ranges::count_if(*fits, std::not_fn(judged));
+    if (others > 0)
+      result.findings.push_back(with_separators(static_cast<std::uint64_t>(others)) + " fits of " +
+                                std::string(fits == &work ? "work" : "times") +
+                                " are not judged; their rows say why, most often because the range is too short");
+  }
+  result.tables = {table_of_rows("work", "Growth of exact counts", fit_columns(figure_column), work),
+                   table_of_rows("fits", "Growth of the seconds", fit_columns(time_column), times),
                    table_of_rows("points", "Seconds against size", point_columns, rows),
                    table_of_rows("lines", "Straight lines through the points", line_columns, lines, true)};
   for (const Fig8Row& row : rows) add_problem_of(row, result);
@@ -238,11 +307,16 @@ ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
 ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner) {
   std::vector<Fig8Row> rows;
   for (const PaperModel& model : paper_models)
-    if (is_asked_for(options, model.name)) plan_model(options, model, runner, rows);
+    if (is_asked_for(options, model.name)) plan_model(options, model, rows);
   check_something_is_measured(rows.size(), "fig8");
+  measure_rows(runner, rows);
+  for (Fig8Row& row : rows)
+    if (is_short(options, row.measured))
+      row.measured.asked = timed_case(options, "fig8", row.measured.asked, usual_precision, row.seconds);
   measure_rows(runner, rows);
   ExperimentResult result = fig8_result(rows);
   result.definitions.push_back(repetition_words(options));
+  result.definitions.push_back(short_case_words(options));
   return result;
 }
 

@@ -13,7 +13,7 @@
 
 namespace ccdt::experiments {
 
-/// The measurements of a model for the paper's Table 1: with_check, without_check, cgal_delaunay, tetgen_cdt, ...
+/// The measurements of a model for the paper's Table 1: with_check, without_check, default_with_check, searched, ...
 struct Table1Model {
   std::string name;
   double edge_length = 0;  ///< units of the model
@@ -31,18 +31,15 @@ ExperimentResult table1_result(std::span<const Table1Model> models);
 /// number of tetrahedra, but not more than a picture can show.
 ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner);
 
-/// The claimed exponent of the growth of the time with the number of vertices; 1 is linear.
-inline constexpr double claimed_exponent = 1.10;
-
 /// A model at one size, meshed with one strategy.
 struct Fig8Row : CaseRow {
   std::string model, strategy;
   double edge_length = 0;  ///< units of the model
 };
 
-/// Measures time against size at uniform density (paper, Fig. 8): the paper's models in eight sizes over two decades,
-/// from a tenth of the wanted number of tetrahedra to ten times as many; slow meshers only at the coarser ones. The
-/// strategies take turns at each size. Sizes that a model cannot have are left out.
+/// Measures work and time against size at uniform density (paper, Fig. 8): the paper's models in steps of a quarter
+/// decade, over two decades and one of them over three, as far as the scale allows. All sizes and strategies are run in
+/// one random order.
 ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner);
 
 /// \param rows  grouped by model and strategy, from the coarsest size

@@ -1,0 +1,80 @@
+#include "bench/experiments/growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bench/results/numbers.h"
+
+namespace ccdt::experiments {
+namespace {
+
+using results::rounded;
+
+/// The variance that remains if log y is a given function of n plus a free constant.
+template <class LogOfLaw>
+double variance_around(std::span<const double> sizes, std::span<const double> y, const LogOfLaw& law) {
+  std::vector<double> rest;
+  for (std::size_t i = 0; i < sizes.size(); ++i) rest.push_back(std::log(y[i]) - law(sizes[i]));
+  const double mean = std::accumulate(rest.begin(), rest.end(), 0.0) / static_cast<double>(rest.size());
+  double sum = 0;
+  for (const double r : rest) sum += (r - mean) * (r - mean);
+  return sum / static_cast<double>(rest.size());
+}
+
+/// By the ratio of likelihoods with normal residuals. One law is better if it makes the data twenty times as likely.
+Law better_law(std::span<const double> sizes, std::span<const double> y) {
+  constexpr double least_ratio = 20;
+  const double linear = variance_around(sizes, y, [](double n) { return std::log(n); }),
+               n_log_n = variance_around(sizes, y, [](double n) { return std::log(n * std::log(n)); });
+  constexpr double rounding = 1e-24;  // of an exact law
+  const double log_ratio =
+      0.5 * static_cast<double>(sizes.size()) * std::log((n_log_n + rounding) / (linear + rounding));
+  if (std::fabs(log_ratio) < std::log(least_ratio)) return Law::cannot_tell;
+  return log_ratio > 0 ? Law::linear : Law::n_log_n;
+}
+
+}  // namespace
+
+std::string words_of(Law law) {
+  switch (law) {
+    case Law::linear:
+      return "n";
+    case Law::n_log_n:
+      return "n log n";
+    case Law::cannot_tell:
+      break;
+  }
+  return "cannot tell";
+}
+
+Growth growth_of(std::span<const double> sizes, std::span<const double> y) {
+  Growth growth;
+  growth.power = bench::fit_power(sizes, y);
+  growth.sizes = sizes.size();
+  growth.decades = std::log10(std::ranges::max(sizes) / std::ranges::min(sizes));
+  const double around = variance_around(sizes, y, [&](double n) { return growth.power.slope.value * std::log(n); });
+  growth.scatter = std::sqrt(around * static_cast<double>(sizes.size()) / static_cast<double>(sizes.size() - 2));
+  growth.better = better_law(sizes, y);
+  return growth;
+}
+
+std::string why_not_judged(const Growth& growth, const FitRule& rule) {
+  if (growth.decades < rule.least_decades)
+    return rounded(growth.decades, 2) + " decades; " + rounded(rule.least_decades, 1) + " are needed";
+  if (growth.sizes < rule.least_sizes)
+    return std::to_string(growth.sizes) + " sizes; " + std::to_string(rule.least_sizes) + " are needed";
+  if (growth.scatter > rule.most_scatter)
+    return "the sizes scatter by " + rounded(100 * growth.scatter, 2) + "% around the fit; at most " +
+           rounded(100 * rule.most_scatter, 2) + "% are allowed";
+  return {};
+}
+
+bench::BoundTest is_linear(const bench::Estimate& exponent) {
+  const bench::BoundTest above = bench::is_at_least(exponent, 1 - linear_within),
+                         below = bench::is_at_most(exponent, 1 + linear_within);
+  if (above == bench::BoundTest::fails || below == bench::BoundTest::fails) return bench::BoundTest::fails;
+  return above == bench::BoundTest::holds ? below : above;
+}
+
+}  // namespace ccdt::experiments
