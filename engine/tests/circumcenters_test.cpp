@@ -263,5 +263,38 @@ TEST(Circumcenters, FollowTheSizesOfABackground) {
   EXPECT_LT(5 * in_middle(), graded);
 }
 
+TEST(Circumcenters, FillInputsOfEveryKind) {
+  std::uint64_t interior = 0;
+  for (const auto& [name, plain] : mesh_test::small_inputs())
+    for (const InputPlc& input : {plain, plc_test::rotated(mesh_test::oblique, plain)}) {
+      SCOPED_TRACE(name);
+      MeshOptions options;
+      options.lattice = Lattice::refinement;
+      options.edge_length = 0.35;
+      options.sphere_factor = 0.2;
+      options.radius_edge = 1.2;
+      options.improve.improvement = Improvement::none;
+      const MeshResult plainly = mesh_plc(input, options);
+      mesh_test::expect_right(input, plainly.mesh);
+      interior += plainly.counts.interior_vertices;
+      options.improve.improvement = Improvement::all;
+      mesh_test::expect_right(input, mesh_plc(input, options).mesh);
+    }
+  EXPECT_GT(interior, 1000u);
+}
+
+TEST(Circumcenters, EndInRealPartsForTheLeastBound) {
+  if (!there_are_parts()) GTEST_SKIP() << "no parts here; CCDT_PARTS names their folder";
+  for (const char* name : {"turbine.off", "anchor.off", "handle.off"}) {
+    SCOPED_TRACE(name);
+    const InputPlc input = io::read_plc(folder_of_parts() / name);
+    MeshOptions options;
+    options.lattice = Lattice::refinement;
+    options.radius_edge = 1;
+    options.improve.improvement = Improvement::none;
+    mesh_test::expect_right(input, mesh_plc(input, options).mesh);
+  }
+}
+
 }  // namespace
 }  // namespace ccdt::test

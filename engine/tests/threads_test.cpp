@@ -200,6 +200,9 @@ TEST(Threads, MakeOneMesh) {
     }
     options.lattice = Lattice::none;
     expect_one_mesh(c.name + ", surface alone", c.input, options);
+    options.lattice = Lattice::refinement;
+    options.improve.improvement = Improvement::none;
+    expect_one_mesh(c.name + ", circumcenters", c.input, options);
   }
 }
 
