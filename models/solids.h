@@ -16,7 +16,8 @@ struct Solid {
   plc::InputPlc (*make)(double edge_length);  ///< does not check the edge length; `make_solid` does
 };
 
-/// piston, bracket, stepping-pole (the paper's, in millimeters), cube, graded-cube, sphere, rough-sphere, torus (of
+/// piston, bracket, stepping-pole (our models of the paper's three parts, in millimeters: the paper gives
+/// neither geometry nor sizes), cube, graded-cube, sphere, rough-sphere, torus (of
 /// size one), schoenhardt (always the same).
 ///
 /// Each group of faces has its own marker, counted from 1 (models/parts.h lists them). All are closed surfaces but the

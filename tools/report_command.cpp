@@ -75,7 +75,7 @@ constexpr const char* examples =
     "empty\nif the record does not say. Each option of the sweep has a column option_NAME. Unknown values are empty in "
     "CSV\nand null in JSON.\n\n"
     "Example: measure one experiment again, then update the report\n"
-    "  ccdt reproduce fig8 -o build/paper --scale paper && ccdt report build/paper\n"
+    "  ccdt reproduce fig8 -o build/full --scale full && ccdt report build/full\n"
     "Example: compare two folders; the report goes to new/comparison\n"
     "  ccdt report old new\n"
     "Example: get the median seconds of each mesher of a sweep, in Python\n"

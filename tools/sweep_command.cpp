@@ -176,7 +176,7 @@ constexpr const char* sweep_footer =
     "which options. Each run is a separate process with limits of time and memory; its report is a file in DIR/runs.\n"
     "Nothing is run twice: if the command is stopped, call it again, and it continues where it was. A case that "
     "fails\nis a result like any other. These specs come with the program:\n\n"
-    "  scaling          the paper's models from 10^4 to 10^7 tetrahedra, with all meshers\n"
+    "  scaling          our models of the paper's parts from 10^4 to 10^7 tetrahedra, with all meshers\n"
     "  strategies       every strategy of every stage\n"
     "  parts            your files, with all meshers: --input 'parts/*.off'\n\n"
     "Example: estimate how long it takes\n"

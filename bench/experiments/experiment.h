@@ -75,7 +75,7 @@ struct ExperimentOptions {
   std::filesystem::path folder;                    ///< models, meshes and records go here; exists
   int runs = bench::fewest_for_interval;           ///< counted runs per timed case, after one warm-up run
   double tetrahedra = 100000;                      ///< approximate number of tetrahedra per model
-  std::string scale = "paper";                     ///< as the user said it
+  std::string scale = "full";                      ///< as the user said it
   std::string command = {};                        ///< the command that repeats the experiment
   std::vector<std::string> models;                 ///< models to measure; empty: all of the experiment
   std::optional<std::vector<std::string>> beside;  ///< other meshers to measure; none: all of this build
@@ -98,7 +98,7 @@ bool is_asked_for(const ExperimentOptions& options, std::string_view model);
 /// Does this build have the mesher, and did the user not exclude it? Ours always takes part.
 bool is_measured(const ExperimentOptions& options, std::string_view mesher);
 
-/// The same for comparisons of times. Mesh_3 cannot mesh the paper's models with fewer than 50,000 tetrahedra, for any
+/// The same for comparisons of times. Mesh_3 cannot mesh our models of the paper's parts with fewer than 50,000 tetrahedra, for any
 /// edge length, so it takes part only if at least that many are wanted.
 bool is_timed(const ExperimentOptions& options, std::string_view mesher);
 

@@ -25,7 +25,7 @@ const std::vector<LocatorsModel> models = {{"piston", 2.3, SurfaceKind::uniform}
 const std::vector<std::string> definitions = {
     "Seconds of the front alone, including the construction of the locator.",
     "Check off: every face goes through the front. Check on: only faces that are not Delaunay do.",
-    "Uniform: the paper's models with interior vertices at the density of the surface.",
+    "Uniform: our models of the paper's parts with interior vertices at the density of the surface.",
     "Graded: a cube with squares on its faces that shrink toward a corner.",
     "Rough: a sphere with uneven radii, so that some faces are not Delaunay.",
     "Edge ratio: the longest edge of the surface over the shortest.",

@@ -101,9 +101,9 @@ std::vector<double> edge_lengths_of(const SourceStudy& study, const EvenSurface&
   const auto wanted = try_length(study.plan.variants.front(), surface.edge_length);
   if (!wanted) return lengths;
   for (std::size_t i = 1; i < lengths.size(); ++i) {
-    const auto found =
-        bench::search_edge_length({.wanted = static_cast<double>(*wanted), .first = surface.edge_length},
-                                  [&](double edge_length) { return try_length(study.plan.variants[i], edge_length); });
+    const auto found = bench::search_edge_length(
+        {.wanted = static_cast<double>(*wanted), .first = surface.edge_length, .tolerance = 0.02, .most_tries = 12},
+        [&](double edge_length) { return try_length(study.plan.variants[i], edge_length); });
     if (found) lengths[i] = found->edge_length;
   }
   return lengths;
@@ -284,7 +284,7 @@ ResultTable surfaces_table(std::span<const EvenSurface> surfaces) {
 }  // namespace
 
 bool QualityRow::is_comparable() const {
-  constexpr double tolerance = 0.15;  // of the number of tetrahedra, as a fraction
+  constexpr double tolerance = 0.03;  // of the number of tetrahedra, as a fraction
   const auto tetrahedra = static_cast<double>(measured.first.counts.tetrahedra);
   return std::abs(tetrahedra / static_cast<double>(reference) - 1) <= tolerance;
 }

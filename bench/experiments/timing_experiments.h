@@ -23,11 +23,11 @@ struct Table1Model {
 /// In the paper, sending every face through the front costs more than this many times as much as Delaunay.
 inline constexpr double least_gain = 8;
 
-/// Measures the CDT on the paper's three models with and without the check, and other meshers for comparison.
+/// Measures the CDT on our models of the paper's three parts with and without the check, and other meshers for comparison.
 ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult table1_result(std::span<const Table1Model> models);
 
-/// Fig. 7 of the paper: the meshes of its three models, kept for pictures that show them cut open. They have the wanted
+/// Fig. 7 of the paper: the meshes of our models of its three parts, kept for pictures that show them cut open. They have the wanted
 /// number of tetrahedra, but not more than a picture can show.
 ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner);
 
@@ -37,7 +37,7 @@ struct Fig8Row : CaseRow {
   double edge_length = 0;  ///< units of the model
 };
 
-/// Measures work and time against size at uniform density (paper, Fig. 8): the paper's models in steps of a quarter
+/// Measures work and time against size at uniform density (paper, Fig. 8): our models in steps of a quarter
 /// decade, over two decades and one of them over three, as far as the scale allows. All sizes and strategies are run in
 /// one random order.
 ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner);
@@ -46,7 +46,7 @@ ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& r
 ExperimentResult fig8_result(std::span<const Fig8Row> rows);
 
 enum class SurfaceKind {
-  uniform,  ///< one of the paper's models
+  uniform,  ///< one of our models of the paper's parts
   graded,   ///< edges of very different length
   rough,    ///< some of its faces are not Delaunay
   input     ///< a file of the user's
@@ -68,7 +68,7 @@ struct LocatorsRow : CaseRow {
   LocatorKind locator = LocatorKind::grid;
 };
 
-/// Measures the front with the three locators: without the check on the paper's models at uniform density and on a
+/// Measures the front with the three locators: without the check on our models at uniform density and on a
 /// graded cube; with and without it on a rough sphere and on the user's files.
 ///
 /// \throw InputError  a file cannot be read

@@ -19,7 +19,7 @@ struct Circumstances {
   double confidence = 0.95;
   baselines::Limits limits;  ///< of each run
   double tetrahedra = 0;     ///< approximate number of tetrahedra per model
-  std::string scale;         ///< as on the command line: "quick", "paper", "large", or a number
+  std::string scale;         ///< as on the command line: "quick", "full", "large", or a number
   std::string command;       ///< that repeats the experiment
 };
 

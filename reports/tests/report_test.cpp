@@ -31,7 +31,7 @@ class ReportFolder : public testing::Test {
     run.command = {"ccdt", "mesh", "models/my part.off", "-o", "meshes/x.vtu", "--report", "runs/x-1.json"};
     bench::write_run_record(run, folder(name) / "runs/x-1.json");
     results::ExperimentResult result{.name = "table1", .title = "Table 1"};
-    result.how.scale = "paper";
+    result.how.scale = "full";
     results::ResultTable table{"times",
                                "Seconds",
                                {{"model", "model", results::ColumnKind::label},
@@ -64,7 +64,7 @@ TEST_F(ReportFolder, SaysWhatIsMissingAndHowToMakeIt) {
   const reports::ReportSection& fig8 = section(report, "fig8");
   EXPECT_TRUE(fig8.is_missing);
   EXPECT_NE(fig8.reason.find("fig8.json"), std::string::npos);
-  EXPECT_EQ(fig8.result.how.command, "ccdt reproduce fig8 --scale paper -o .");
+  EXPECT_EQ(fig8.result.how.command, "ccdt reproduce fig8 --scale full -o .");
   EXPECT_FALSE(section(report, "table1").is_missing);
 }
 

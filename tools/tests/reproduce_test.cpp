@@ -255,9 +255,14 @@ TEST_F(Program, ReproduceRefusesScalesThatAreNone) {
   for (const char* scale : {"tiny", "0", "-5", "nan", "10x"}) {
     const Outcome outcome = run(std::string("reproduce fig7 -o report --scale ") + scale);
     EXPECT_EQ(outcome.exit_code, 2) << scale;
-    for (const char* part : {"--scale", scale, "quick", "paper", "large"})
+    for (const char* part : {"--scale", scale, "quick", "full", "large"})
       EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
   }
+}
+
+TEST_F(Program, ReproduceKnowsTheOlderNameOfTheFullScale) {
+  ASSERT_EQ(run("reproduce conditions -o report --scale paper --models cube").exit_code, 0);
+  EXPECT_EQ(Json::parse(text_of(work() / "report/conditions.json"))["scale"], "full");
 }
 
 TEST_F(Program, ReproduceRefusesModelsThatAnExperimentDoesNotHave) {
