@@ -164,12 +164,13 @@ std::optional<front::Stuck> check_uncut(const plc::Plc& plc, const facets::Facet
 front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay,
                            const MeshOptions& options, const Progress& progress, std::vector<std::uint32_t>& codes) {
   const front::FrontOptions usual{.locator = locate::LocatorKind::cavity};
-  if (options.face_protection && options.locator == usual.locator)
+  if (options.face_protection && options.locator == usual.locator && options.visibility == usual.visibility)
     return front::advance_front({plc, facets, codes, delaunay}, usual, progress);
   std::vector<std::uint32_t> used = codes;
   if (!options.face_protection) std::ranges::fill(used, delaunay::no_neighbor);
   front::FrontResult front = front::advance_front(
-      {plc, facets, used, delaunay}, {options.locator, options.grid_scale, options.face_protection}, progress);
+      {plc, facets, used, delaunay}, {options.locator, options.grid_scale, options.face_protection, options.visibility},
+      progress);
   if (front.stuck) return front::advance_front({plc, facets, codes, delaunay}, usual, progress);
   codes = std::move(used);
   return front;

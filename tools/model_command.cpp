@@ -38,7 +38,8 @@ void run(const ModelCommand& command) {
 
 void add_model_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<ModelCommand>();
-  CLI::App* verb = app.add_subcommand("model", "write one of our models of the paper's parts, or a primitive, at a given density");
+  CLI::App* verb =
+      app.add_subcommand("model", "write one of our models of the paper's parts, or a primitive, at a given density");
   std::vector<std::string> names;
   for (const models::Solid& solid : models::solids()) names.emplace_back(solid.name);
   verb->add_option("NAME", command->name, "solid (listed below)")->required()->check(one_of(names));

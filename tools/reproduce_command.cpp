@@ -35,7 +35,8 @@ struct NamedScale {
 };
 constexpr const char *full_scale = "full", *older_name_of_full_scale = "paper";
 constexpr std::array<NamedScale, 3> named_scales = {
-    {{"quick", 8000, "8,000 tetrahedra per model: everything in 4 minutes on two cores; times over short ranges decide nothing"},
+    {{"quick", 8000,
+      "8,000 tetrahedra per model: everything in 4 minutes on two cores; times over short ranges decide nothing"},
      {full_scale, 100000, "100,000, and up to four million in fig8: everything in 45 minutes, for verdicts"},
      {"large", 1000000, "ten times as many"}}};
 

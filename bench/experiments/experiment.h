@@ -98,8 +98,8 @@ bool is_asked_for(const ExperimentOptions& options, std::string_view model);
 /// Does this build have the mesher, and did the user not exclude it? Ours always takes part.
 bool is_measured(const ExperimentOptions& options, std::string_view mesher);
 
-/// The same for comparisons of times. Mesh_3 cannot mesh our models of the paper's parts with fewer than 50,000 tetrahedra, for any
-/// edge length, so it takes part only if at least that many are wanted.
+/// The same for comparisons of times. Mesh_3 cannot mesh our models of the paper's parts with fewer than 50,000
+/// tetrahedra, for any edge length, so it takes part only if at least that many are wanted.
 bool is_timed(const ExperimentOptions& options, std::string_view mesher);
 
 /// The files in which the user described meshers.

@@ -31,7 +31,9 @@ TEST(ClaimVerdict, FollowsFromTheMeasuresAlone) {
 }
 
 TEST(ClaimVerdict, NamesWhatSpeaksAgainstTheClaim) {
-  EXPECT_NE(claim_of({{yes, yes}, {no, no}}).reason.find("m1"), std::string::npos);
+  const std::string refuted = claim_of({{yes, yes}, {no, no}}).reason;
+  EXPECT_NE(refuted.find("m1"), std::string::npos);
+  EXPECT_EQ(refuted.find("m0"), std::string::npos);
   const std::string weaker = claim_of({{yes, yes}, {no, yes}}).reason;
   EXPECT_NE(weaker.find("A weaker one."), std::string::npos);
   EXPECT_NE(weaker.find("m1"), std::string::npos);
@@ -78,6 +80,152 @@ TEST(TimeClaims, JudgeWhatTheCheckSaves) {
   EXPECT_EQ(verdict_of(table1(check, {10, 9, 11}), "check-saves-a-factor"), reports::ClaimVerdict::confirmed);
   EXPECT_EQ(verdict_of(table1(check, {3, 2.9, 3.1}), "check-saves-a-factor"), reports::ClaimVerdict::reservation);
   EXPECT_EQ(verdict_of(table1(check, {0.9, 0.8, 0.95}), "check-saves-a-factor"), reports::ClaimVerdict::refuted);
+}
+
+/// A fit of Fig. 8.
+struct MadeUpFit {
+  std::string strategy, quantity;
+  bench::Estimate exponent;
+  bool is_judged = true;
+};
+
+/// All fits have this exponent but the given ones.
+results::ExperimentResult fig8(const std::vector<MadeUpFit>& others,
+                               const bench::Estimate& exponent = {1, 0.99, 1.01}) {
+  const std::vector<results::Column> columns = {
+      {"model", "model", results::ColumnKind::label},        {"strategy", "strategy", results::ColumnKind::label},
+      {"quantity", "of", results::ColumnKind::label},        {"exponent", "exponent", results::ColumnKind::time},
+      {"better", "n or n log n", results::ColumnKind::note}, {"judged", "judged", results::ColumnKind::label}};
+  results::ResultTable work{"work", "Work", columns}, fits{"fits", "Fits", columns};
+  const auto add = [&](const std::string& strategy, const std::string& quantity, results::ResultTable& table) {
+    MadeUpFit fit{strategy, quantity, exponent};
+    for (const MadeUpFit& other : others)
+      if (other.strategy == strategy && other.quantity == quantity) fit = other;
+    table.rows.push_back({{std::string("bracket"), strategy, quantity, fit.exponent, std::string("n"),
+                           std::string(fit.is_judged ? "yes" : "no")},
+                          {}});
+  };
+  for (const char* strategy : {"paper, with check", "paper, without check"}) {
+    for (const char* quantity : {"Delaunay: vertices examined", "Delaunay: grid cells", "front: candidates",
+                                 "front: visibility tests", "front: grid cells"})
+      add(strategy, quantity, work);
+    for (const char* quantity : {"cdt", "delaunay", "front"}) add(strategy, quantity, fits);
+  }
+  add("Delaunay refinement, ours", "mesh", fits);
+  results::ExperimentResult result{.name = "fig8"};
+  result.tables = {work, fits};
+  return result;
+}
+
+TEST(GrowthClaims, NeedWorkAndTimeThatAreBothLinear) {
+  const std::string paper = "paper, with check";
+  const auto verdict = [&](const std::vector<MadeUpFit>& fits) { return verdict_of(fig8(fits), "linear-with-check"); };
+  EXPECT_EQ(verdict({}), reports::ClaimVerdict::confirmed);
+  EXPECT_EQ(verdict({{paper, "cdt", {1.15, 1.11, 1.19}}}), reports::ClaimVerdict::reservation);
+  EXPECT_EQ(verdict({{paper, "cdt", {0.8, 0.7, 0.89}}}), reports::ClaimVerdict::reservation) << "slower than linear";
+  EXPECT_EQ(verdict({{paper, "Delaunay: grid cells", {1.3, 1.25, 1.4}}}), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict({{paper, "cdt", {1.3, 1.25, 1.4}}}), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict({{paper, "cdt", {1.2, 1.1, 1.3}}}), reports::ClaimVerdict::not_testable);
+}
+
+TEST(GrowthClaims, HoldWithReservationsWhereWorkIsNearlyLinear) {
+  EXPECT_EQ(verdict_of(fig8({{"paper, with check", "Delaunay: grid cells", {1.15, 1.12, 1.18}}}), "linear-with-check"),
+            reports::ClaimVerdict::reservation);
+}
+
+TEST(GrowthClaims, AreNotTestableWithoutAFitThatIsJudged) {
+  const std::string paper = "paper, with check";
+  const auto verdict = [&](const std::string& quantity) {
+    return verdict_of(fig8({{paper, quantity, {1, 0.99, 1.01}, false}}), "linear-with-check");
+  };
+  EXPECT_EQ(verdict("cdt"), reports::ClaimVerdict::not_testable);
+  EXPECT_EQ(verdict("Delaunay: grid cells"), reports::ClaimVerdict::not_testable);
+  EXPECT_EQ(verdict("front"), reports::ClaimVerdict::confirmed) << "another claim needs that";
+}
+
+TEST(GrowthClaims, AreEachAboutTheirOwnStage) {
+  const std::string without = "paper, without check";
+  const auto result = fig8({{without, "front", {1.3, 1.25, 1.4}}, {"paper, with check", "delaunay", {1.4, 1.3, 1.5}}});
+  EXPECT_EQ(verdict_of(result, "constant-time-front"), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict_of(result, "linear-grid-delaunay"), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict_of(result, "linear-without-check"), reports::ClaimVerdict::confirmed);
+  EXPECT_EQ(verdict_of(fig8({{without, "front: candidates", {1.3, 1.25, 1.4}}}), "linear-without-check"),
+            reports::ClaimVerdict::refuted);
+}
+
+TEST(GrowthClaims, ExpectRefinementToBeSteeper) {
+  const auto verdict = [](const bench::Estimate& exponent) {
+    return verdict_of(fig8({{"Delaunay refinement, ours", "mesh", exponent}}), "refinement-is-not-linear");
+  };
+  EXPECT_EQ(verdict({1.3, 1.2, 1.4}), reports::ClaimVerdict::confirmed);
+  EXPECT_EQ(verdict({1.05, 1, 1.09}), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict({1.1, 1, 1.2}), reports::ClaimVerdict::not_testable);
+}
+
+TEST(GrowthClaims, AskTetGenTooIfItWasMeasured) {
+  results::ExperimentResult result = fig8({{"Delaunay refinement, ours", "mesh", {1.3, 1.2, 1.4}}});
+  EXPECT_EQ(verdict_of(result, "refinement-is-not-linear"), reports::ClaimVerdict::confirmed);
+  result.tables[1].rows.push_back({{std::string("bracket"), std::string("TetGen, its own vertices"),
+                                    std::string("mesh"), bench::Estimate{1, 0.99, 1.01}, std::string("n"),
+                                    std::string("yes")},
+                                   {}});
+  EXPECT_EQ(verdict_of(result, "refinement-is-not-linear"), reports::ClaimVerdict::refuted);
+}
+
+/// The quality of the piston's meshes: the paper's and a rival's.
+results::ExperimentResult fig9(double ours, double theirs, bool is_comparable = true, double their_worst = 9) {
+  results::ResultTable quality{"quality",
+                               "Quality",
+                               {{"model", "model", results::ColumnKind::label},
+                                {"variant", "variant", results::ColumnKind::label},
+                                {"status", "status", results::ColumnKind::label},
+                                {"comparable", "comparable"},
+                                {"mean_r", "mean r"},
+                                {"p99_r", "99% of r below"},
+                                {"worst_r", "worst r"},
+                                {"smallest_dihedral", "smallest dihedral angle"}}};
+  const auto add = [&](const std::string& variant, double mean, double worst, bool comparable) {
+    quality.rows.push_back({{std::string("piston"), variant, std::string("ok"), std::string(comparable ? "yes" : "no"),
+                             mean, mean + 1, worst, 30 - worst},
+                            {"runs/a.json"}});
+  };
+  add("paper fcc", ours, 5, true);
+  add("refinement", theirs, their_worst, is_comparable);
+  results::ExperimentResult result{.name = "fig9"};
+  result.tables = {quality};
+  return result;
+}
+
+TEST(QualityClaims, CompareThePapersMeshWithRefinementOfAsManyTetrahedra) {
+  const auto verdict = [](const results::ExperimentResult& result) {
+    return verdict_of(result, "better-than-refinement");
+  };
+  EXPECT_EQ(verdict(fig9(1.2, 1.3)), reports::ClaimVerdict::confirmed);
+  EXPECT_EQ(verdict(fig9(1.2, 1.3, true, 4)), reports::ClaimVerdict::reservation) << "only its worst r is worse";
+  EXPECT_EQ(verdict(fig9(1.3, 1.2)), reports::ClaimVerdict::refuted);
+  EXPECT_EQ(verdict(fig9(1.2, 1.3, false)), reports::ClaimVerdict::not_testable) << "the numbers differ";
+}
+
+TEST(QualityClaims, LeaveNoFigureOutInSilence) {
+  std::vector<results::ExperimentResult> figures = {fig9(1.2, 1.3), fig9(1.2, 1.3)};
+  figures[1].name = "fig11";
+  const auto claims_of = [&] { return reports::judge_claims(figures); };
+  EXPECT_EQ(find(claims_of(), "better-than-refinement").verdict, reports::ClaimVerdict::confirmed);
+  figures[1] = fig9(1.2, 1.3, false);
+  figures[1].name = "fig11";
+  const auto claims = claims_of();
+  const reports::PaperClaim& claim = find(claims, "better-than-refinement");
+  EXPECT_EQ(claim.verdict, reports::ClaimVerdict::not_testable);
+  EXPECT_NE(claim.reason.find("fig11"), std::string::npos) << claim.reason;
+}
+
+TEST(QualityClaims, CompareWithTetGenTooIfItWasMeasured) {
+  results::ExperimentResult result = fig9(1.2, 1.3);
+  results::ResultRow tetgen = result.tables[0].rows[1];
+  tetgen.cells[1] = std::string("tetgen");
+  tetgen.cells[4] = 1.1;  // its mean r
+  result.tables[0].rows.push_back(tetgen);
+  EXPECT_EQ(verdict_of(result, "better-than-refinement"), reports::ClaimVerdict::refuted);
 }
 
 TEST(Claims, KeepTheRunsBehindTheirMeasures) {
