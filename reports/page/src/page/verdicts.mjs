@@ -134,7 +134,8 @@ export function verdictSection(report) {
       "p.lead",
       {},
       "Each claim of the paper, with its measurements here and the verdict. ",
-      "Verdicts are computed from the measurements.",
+      "Verdicts are computed from the measurements. ",
+      "The models are ours: the paper gives neither the geometry nor the sizes of its three parts.",
     ),
     report.claims.map((claim) => claimEntry(report, claim)),
   );
