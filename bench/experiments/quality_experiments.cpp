@@ -329,6 +329,7 @@ StudyPlan lattices_plan() {
                                "Meshes: all lattices have the same number of vertices per volume and the same surface.",
                                "Inside: tetrahedra of the unimproved mesh none of whose vertices is on the surface, or "
                                "joined by an edge to one that is.",
+                               "Thin models have none at small scales.",
                                "In meshes, FCC is confirmed as the best by a measure if it alone is in every case.",
                                "Improvement stops at a target: lattices that all reach it differ in worst values by "
                                "chance."});
