@@ -48,6 +48,25 @@ TEST(EffectiveOptions, OfOurEngineAreAllButTheUsualOnes) {
   EXPECT_EQ(effective_options(ccdt_mesher(), baselines::usual_options()), NamedOptions());
 }
 
+TEST(EffectiveOptions, OfThePapersStrategiesAreThoseThatTheyStandFor) {
+  const NamedOptions paper = {{"delaunay", "wrap"},
+                              {"improve", "swap-smooth"},
+                              {"locator", "grid"},
+                              {"protection", "midpoint"},
+                              {"visibility", "faces"}};
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"strategies", "paper"}}), paper);
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"strategies", "PAPER"}}), paper);
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"strategies", "default"}}), NamedOptions());
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"strategies", "paper"}, {"locator", "octree"}}).at("locator"), "octree");
+  EXPECT_FALSE(effective_options(ccdt_mesher(), {{"strategies", "paper"}, {"lattice", "none"}}).contains("improve"));
+  EXPECT_EQ(effective_options(remesher(), {{"strategies", "paper"}}), NamedOptions());
+}
+
+TEST(EffectiveOptions, HaveABoundOfRefinementOnlyWithRefinement) {
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"radius-edge", "1.5"}}), NamedOptions());
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "refinement"}, {"radius-edge", "1.5"}}).size(), 2u);
+}
+
 TEST(EffectiveOptions, WriteEqualNumbersAndNamesAlike) {
   EXPECT_EQ(effective_options(ccdt_mesher(), {{"edge-length", "2.50"}, {"lattice", "BCC"}, {"sizes", "Part.sol"}}),
             (NamedOptions{{"edge-length", "2.5"}, {"lattice", "bcc"}, {"sizes", "Part.sol"}}));

@@ -1,3 +1,4 @@
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
@@ -24,9 +25,44 @@ TEST_F(Program, MeshHasTheOptionsWhoseEffectsAreKnown) {
   std::set<std::string> listed = options_in(run("mesh --help").out);
   for (const char* no_effect : {"help", "output", "surface-output", "report", "mesher"})
     EXPECT_EQ(listed.erase(no_effect), 1u) << no_effect;
+  EXPECT_EQ(listed.erase("strategies"), 1u) << "it stands for others";
   std::set<std::string> known;
   for (const auto& [name, usual] : baselines::usual_options()) known.insert(name);
   EXPECT_EQ(listed, known);
+}
+
+TEST_F(Program, MeshKnowsThePapersStrategiesByOneName) {
+  ASSERT_EQ(run("model bracket --edge-length 6 -o part.poly").exit_code, 0);
+  const auto options_of = [&](const std::string& words) {
+    const Outcome outcome = run("mesh part.poly -o out.mesh --threads 1 --report out.json " + words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return nlohmann::json::parse(text_of(work() / "out.json"))["options"];
+  };
+  const nlohmann::json paper = options_of("--strategies paper");
+  const std::string paper_mesh = text_of(work() / "out.mesh");
+  EXPECT_EQ(
+      paper,
+      options_of("--delaunay wrap --locator grid --protection midpoint --visibility faces --improve swap-smooth"));
+  EXPECT_EQ(paper_mesh, text_of(work() / "out.mesh"));
+  EXPECT_EQ(paper["visibility"], "faces");
+  EXPECT_EQ(paper["improve"], "swap-smooth");
+  EXPECT_EQ(options_of("--strategies default"), options_of(""));
+  EXPECT_EQ(options_of("--strategies paper --locator octree --improve none")["locator"], "octree")
+      << "an option replaces that of the strategies";
+  EXPECT_EQ(options_of("--strategies paper --lattice none")["improve"], "none");
+}
+
+TEST_F(Program, MeshMakesTheSameTetrahedraWithThePapersStrategiesBeforeImprovement) {
+  ASSERT_EQ(run("model bracket --edge-length 6 -o part.poly").exit_code, 0);
+  const auto mesh_of = [&](const std::string& words) {
+    const Outcome outcome = run(
+        "mesh part.poly -o out.mesh --protection midpoint --improve none --steiner keep --report out.json " + words);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return nlohmann::json::parse(text_of(work() / "out.json"))["mesh_fingerprint"];
+  };
+  const nlohmann::json usual = mesh_of("");
+  for (const char* check : {"on", "off"})
+    EXPECT_EQ(usual, mesh_of(std::string("--strategies paper --face-protection ") + check)) << check;
 }
 
 }  // namespace
