@@ -161,6 +161,24 @@ TEST(Lattices, HaveATableOfMeshesInsideWholeAndImproved) {
   EXPECT_EQ(numbers(result, "quality", "mean_r").size(), 6u);  // for charts
 }
 
+TEST(Lattices, BeginWithTheUnitCells) {
+  const ExperimentResult result = experiments::study_result(experiments::lattices_plan(), {}, {});
+  EXPECT_EQ(result.tables[0].name, "unit_cells");
+  EXPECT_EQ(texts(result, "unit_cells", "lattice").size(), 14u);
+  EXPECT_EQ(texts(result, "unit_cells", "worst_squared_r")[2], "343/216");
+  EXPECT_EQ(texts(result, "unit_cells", "parameters")[9], "(c/a)^2 = 5/8");
+  EXPECT_EQ(texts(result, "unit_cells", "similar_to")[13], "body-centered cubic");
+  // Only regular tetrahedra speak for FCC: a third of its own, a fifth of the cube's in five, none of BCC's.
+  const Texts by = texts(result, "unit_cell_criteria", "criterion");
+  const Texts confirmed = texts(result, "unit_cell_criteria", "confirmed");
+  for (std::size_t i = 0; i < by.size(); ++i)
+    EXPECT_EQ(confirmed[i], by[i] == "share of regular tetrahedra" ? "yes" : "no") << by[i];
+  EXPECT_EQ(by[1], "worst r");
+  EXPECT_EQ(texts(result, "unit_cell_criteria", "best_other_lattices")[1], "body-centered cubic");
+  EXPECT_NEAR(numbers(result, "unit_cell_criteria", "best_other")[1], std::sqrt(125.0 / 108), 1e-12);
+  EXPECT_EQ(texts(result, "unit_cell_criteria", "best_other_lattices")[3], "simple cubic");  // as good as FCC
+}
+
 TEST(Improvement, CountsInHowManyCasesEachPartIsBest) {
   const experiments::StudyPlan plan = experiments::improvement_plan();
   const std::vector<QualityRow> rows = {row(plan, "none", 1.3, 50, 1), row(plan, "swap", 1.2, 9, 5),
