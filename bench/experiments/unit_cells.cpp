@@ -183,8 +183,9 @@ std::vector<std::string> unit_cell_findings(const ResultTable& criteria) {
 
 std::vector<std::string> unit_cell_definitions() {
   return {
-      "The paper, section 3: in a unit cell, the tetrahedra of the FCC lattice are better than those of the 13 other "
-      "Bravais lattices (after Radovitzky and Ortiz 2000).",
+      "The paper, section 3: in a unit cell, the tetrahedra of FCC are better than those of the 13 other lattices.",
+      "It cites Radovitzky and Ortiz (2000) for it, and their aspect ratio; here it is tested by the paper's r and "
+      "others.",
       "Unit cells: the Delaunay tetrahedra of one period, computed in whole numbers; they fill its volume.",
       "Free parameters have the values of the least worst r; a lattice includes those of higher symmetry.",
       "So seven lattices become body-centered cubic, which is the optimum of all lattices, and others simple cubic.",
