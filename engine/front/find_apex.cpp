@@ -60,8 +60,8 @@ class ApexSearch {
   }
 
   /// As in the paper (sections 4 and 5.1): the first visible vertex is replaced by a visible one in its sphere, as long
-  /// as there is one. Where facets meet at an edge of the face, they can hide a vertex without crossing any of the
-  /// three triangles. So what passes the paper's tests is looked at along a line, too.
+  /// as there is one. Where edges of facets meet edges of the three triangles exactly, facets can hide a vertex though
+  /// they only touch these. So what passes the paper's tests is looked at along a line from a generic point, too.
   std::optional<std::uint32_t> find_as_paper() {
     const auto is_seen = [&](const locate::LocatedVertex& v) { return is_visible_from_edges(v) && is_visible(v); };
     locate::LocatedVertex found = nobody;
