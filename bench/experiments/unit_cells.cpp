@@ -184,8 +184,7 @@ std::vector<std::string> unit_cell_findings(const ResultTable& criteria) {
 std::vector<std::string> unit_cell_definitions() {
   return {
       "The paper, section 3: in a unit cell, the tetrahedra of FCC are better than those of the 13 other lattices.",
-      "It cites Radovitzky and Ortiz (2000) for it, and their aspect ratio; here it is tested by the paper's r and "
-      "others.",
+      "It cites Radovitzky and Ortiz (2000), who have an aspect ratio of their own; here r and other measures decide.",
       "Unit cells: the Delaunay tetrahedra of one period, computed in whole numbers; they fill its volume.",
       "Free parameters have the values of the least worst r; a lattice includes those of higher symmetry.",
       "So seven lattices become body-centered cubic, which is the optimum of all lattices, and others simple cubic.",
