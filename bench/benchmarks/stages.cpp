@@ -14,6 +14,7 @@
 #include "engine/plc/build_plc.h"
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
+#include "models/flatten.h"
 #include "models/solids.h"
 
 namespace ccdt::benchmarks {
@@ -30,15 +31,6 @@ double edge_length_of(const std::string& model, std::int64_t size) {
   const auto name = static_cast<std::size_t>(std::ranges::find(model_names, model) - model_names.begin());
   const auto place = static_cast<std::size_t>(std::ranges::find(model_sizes, size) - model_sizes.begin());
   return edge_lengths.at(name).at(place);
-}
-
-void flatten(plc::InputPlc& plc) {
-  const auto press = [](Point3& p) { p.z *= flattening; };
-  for (Point3& p : plc.vertices) press(p);
-  for (Point3& p : plc.holes) press(p);
-  for (auto& region : plc.regions) press(region.seed);
-  for (auto& facet : plc.polygon_facets)
-    for (Point3& p : facet.holes) press(p);
 }
 
 /// How far apart the interior points are.
@@ -111,7 +103,7 @@ const Stages& stages_of_model(const std::string& model, bool flattened, std::int
     double edge_length = edge_length_of(model, size);
     plc::InputPlc plc = models::make_solid(model, edge_length);
     if (flattened) {
-      flatten(plc);
+      models::flatten(plc, flattening);
       edge_length *= std::cbrt(flattening);  // as many vertices in less space
     }
     stages = std::make_unique<const Stages>(make_stages(plc, {edge_length, 0}));

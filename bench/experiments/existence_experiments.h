@@ -8,6 +8,7 @@
 #include "bench/experiments/experiment.h"
 #include "bench/small_plcs/small_plc.h"
 #include "bench/small_plcs/trial.h"
+#include "engine/plc/plc.h"
 
 namespace ccdt::experiments {
 
@@ -67,5 +68,53 @@ struct InteriorRow : CaseRow {
 ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
                                         std::span<const small_plcs::ExistenceTrials> trials);
+
+/// One input, with the Steiner vertices that a conforming Delaunay tetrahedralization needs; those of ours are in the
+/// counts of its run.
+struct ConformingRow : CaseRow {
+  std::string model;
+  double edge_length = 0;  ///< of one of our solids; 0: a file
+  Protection protection = Protection::midpoint;
+  std::uint64_t missing_segments = 0,
+                missing_faces = 0;               ///< in the Delaunay tetrahedralization of the input's vertices
+  std::uint64_t on_segments = 0, in_facets = 0;  ///< Steiner vertices of the conforming one
+  bool is_conforming = false;                    ///< it was found within its limits
+};
+
+/// Counts the Steiner vertices of ours beside those of a conforming Delaunay tetrahedralization (paper, section 1:
+/// "CCDT adds fewer vertices"), for our solids, the same flattened, the parts that come along, and the user's files.
+///
+/// \throw OutputError  a file of the experiment cannot be written
+/// \throw InputError   none of the chosen models is part of it
+ExperimentResult measure_conforming(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult conforming_result(std::span<const ConformingRow> rows);
+
+/// One input, with or without interior points, and both conditions for a Delaunay tetrahedralization that contains it.
+struct ConditionsRow : CaseRow {
+  std::string model;
+  double edge_length = 0;  ///< of one of our solids; 0: a file
+  Lattice lattice = Lattice::none;
+  std::uint64_t faces = 0;
+  std::uint64_t occupied = 0;        ///< faces whose smallest sphere holds a vertex: against Radovitzky and Ortiz
+  std::uint64_t touched = 0;         ///< faces with a vertex on that sphere and none in it
+  std::uint64_t undelaunay = 0;      ///< faces that are not Delaunay: against Theorem 1
+  std::uint64_t missing_edges = 0;   ///< grazeable segments that are not Delaunay: the same
+  std::uint64_t contradictions = 0;  ///< undelaunay faces with nothing in or on their smallest sphere; must be 0
+
+  bool fulfils_theirs() const { return occupied == 0; }
+  bool fulfils_theorem() const { return undelaunay == 0 && missing_edges == 0; }
+};
+
+/// Finds what a PLC with these interior points (grid units) has against both conditions.
+void count_violations(const plc::Plc& plc, std::span<const Point3> interior, ConditionsRow& row);
+
+/// Counts the models that fulfil the condition of Radovitzky and Ortiz (2000), and those that fulfil Theorem 1's
+/// (paper, section 5.2): our solids, the parts that come along and the user's files, without interior points and with
+/// FCC's.
+///
+/// \throw OutputError  a file of the experiment cannot be written
+/// \throw InputError   none of the chosen models is part of it
+ExperimentResult measure_conditions(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult conditions_result(std::span<const ConditionsRow> rows);
 
 }  // namespace ccdt::experiments

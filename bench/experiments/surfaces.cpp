@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,20 @@ std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const st
       before = std::move(vertices);
     }
   }
+  return files;
+}
+
+std::vector<SurfaceFile> parts_that_come_along(const ExperimentOptions& options) {
+  std::vector<SurfaceFile> files;
+  if (!options.models.empty()) return files;
+  // Beside the program in a build, beside its folder after installation.
+  for (const auto& base : {options.program.parent_path(), options.program.parent_path().parent_path()}) {
+    std::error_code missing;
+    for (const auto& entry : std::filesystem::directory_iterator(base / "share" / "ccdt" / "parts", missing))
+      files.push_back({entry.path().filename().string(), entry.path()});
+    if (!files.empty()) break;
+  }
+  std::ranges::sort(files, {}, &SurfaceFile::name);
   return files;
 }
 

@@ -35,6 +35,9 @@ SurfaceFile write_solid(const ExperimentOptions& options, const std::string& exp
 std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const std::string& experiment,
                                       std::span<const double> coarsenings);
 
+/// The small parts that come with the program; none if the user chose models, or they are not there.
+std::vector<SurfaceFile> parts_that_come_along(const ExperimentOptions& options);
+
 /// The user's files, named without their folder.
 std::vector<SurfaceFile> input_files(const ExperimentOptions& options);
 

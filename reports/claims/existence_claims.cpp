@@ -82,6 +82,52 @@ void add_termination(Results results, std::vector<PaperClaim>& claims) {
   claims.push_back(ends);
 }
 
+/// Splitting in either way must agree.
+PaperClaim fewer_vertices(Results results) {
+  PaperClaim claim{"fewer-vertices-than-conforming",
+                   "1",
+                   "A conforming constrained Delaunay tetrahedralization needs fewer additional vertices than a "
+                   "conforming Delaunay tetrahedralization.",
+                   {"conforming"}};
+  claim.weaker = "It never needs more.";
+  for (const ClaimRow& row : rows_of(results, "conforming", "comparison")) {
+    const std::string split = "split as " + row.text("protection") + ": inputs where ours needs ";
+    const double needed = row.number("needed"), fewer = row.number("fewer"), more = row.number("more");
+    if (needed == 0) {
+      claim.measured.push_back(missing_measure(split + "fewer", "all that need any", row.experiment, row.table->name));
+      continue;
+    }
+    claim.measured.push_back(measure_of(
+        row, split + "fewer", fewer,
+        "all " + with_separators(static_cast<std::uint64_t>(needed)) + " for which a conforming one needs any",
+        yes_or_no(fewer == needed), BoundTest::holds));
+    claim.measured.push_back(measure_of(row, split + "more", more, "0", yes_or_no(more == 0), yes_or_no(more == 0)));
+  }
+  return claim;
+}
+
+PaperClaim weaker_condition(Results results) {
+  PaperClaim claim{"weaker-condition-than-radovitzky",
+                   "5.2",
+                   "Few bodies fulfil the condition of Radovitzky and Ortiz, that the smallest spheres of all boundary "
+                   "triangles are empty; Theorem 1's condition asks for less.",
+                   {"conditions"}};
+  claim.weaker = "Theorem 1's holds wherever the other one does.";
+  for (const ClaimRow& row : rows_of(results, "conditions", "models", {{"lattice", "all"}})) {
+    const double models = row.number("models"), theirs = row.number("theirs"), theorem = row.number("theorem");
+    const BoundTest includes = yes_or_no(row.number("only_theirs") == 0);
+    claim.measured.push_back(measure_of(row, "models that fulfil only Radovitzky and Ortiz' condition",
+                                        row.number("only_theirs"), "0", includes, includes));
+    claim.measured.push_back(measure_of(row, "models that fulfil Theorem 1's", theorem,
+                                        "more than " + with_separators(static_cast<std::uint64_t>(theirs)),
+                                        yes_or_no(theorem > theirs), BoundTest::holds));
+    claim.measured.push_back(measure_of(row, "models that fulfil Radovitzky and Ortiz' condition", theirs,
+                                        "few: at most half of " + with_separators(static_cast<std::uint64_t>(models)),
+                                        yes_or_no(theirs <= models / 2), BoundTest::holds));
+  }
+  return claim;
+}
+
 }  // namespace
 
 std::vector<PaperClaim> existence_claims(Results results) {
@@ -97,7 +143,7 @@ std::vector<PaperClaim> existence_claims(Results results) {
             "with a CDT that one interior point destroys", harmless);
   add_zeros(rows_of(results, "interior-points", "rules", {{"lattice", "all"}}), "rule", "harmed", "cases",
             "with protected edges that points could destroy", harmless);
-  claims.push_back(harmless);
+  claims.insert(claims.end(), {harmless, fewer_vertices(results), weaker_condition(results)});
   return claims;
 }
 
