@@ -125,7 +125,6 @@ void EveryVerb::check_and_mesh() {
   call("mesh missing.off -o open.mesh --report missing.json", {3});
   call("mesh part.off -o huge.mesh --report huge.json --edge-length 1e-6", {4});
   call("mesh part.off -o other.mesh --report refused.json --mesher refusing.json", {1});
-  call("improve part.mesh -o better.mesh");
   call("verify part.off part.mesh --report right.json");
   call("verify part.off even.mesh --report wrong-mesh.json", {1});
   for (const char* mesher : {"tetgen", "cgal-mesh3", "cgal-delaunay", "gmsh-hxt"})
