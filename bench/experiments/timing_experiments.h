@@ -23,12 +23,13 @@ struct Table1Model {
 /// In the paper, sending every face through the front costs more than this many times as much as Delaunay.
 inline constexpr double least_gain = 8;
 
-/// Measures the CDT on our models of the paper's three parts with and without the check, and other meshers for comparison.
+/// Measures the CDT on our models of the paper's three parts with and without the check, and other meshers for
+/// comparison.
 ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner);
 ExperimentResult table1_result(std::span<const Table1Model> models);
 
-/// Fig. 7 of the paper: the meshes of our models of its three parts, kept for pictures that show them cut open. They have the wanted
-/// number of tetrahedra, but not more than a picture can show.
+/// Fig. 7 of the paper: the meshes of our models of its three parts, kept for pictures that show them cut open. They
+/// have the wanted number of tetrahedra, but not more than a picture can show.
 ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner);
 
 /// A model at one size, meshed with one strategy.
