@@ -5,11 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "bench/experiments/density.h"
 #include "bench/experiments/existence_experiments.h"
+#include "bench/experiments/min_sphere.h"
 #include "bench/experiments/quality_experiments.h"
 #include "bench/experiments/speed.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
+#include "bench/experiments/visibility_cost.h"
 
 namespace ccdt::experiments {
 namespace {
@@ -97,6 +100,13 @@ std::vector<KnownExperiment> all_experiments() {
        "Steiner vertices beside a conforming Delaunay tetrahedralization", true, true, measure_conforming},
       {"conditions", "Conditions: is Theorem 1's weaker than Radovitzky and Ortiz'?", "5.2",
        "for how many models a Delaunay tetrahedralization contains the surface", true, true, measure_conditions},
+      {"visibility-cost", "Visibility: is it the most expensive part of the CDT?", "5",
+       "the share of the visibility tests in the instructions of the CDT without the check", true, true,
+       measure_visibility_cost},
+      {"min-sphere", "Smallest spheres: do they avoid slivers?", "3",
+       "slivers at the surface with and without the rule for lattice points", true, true, measure_min_sphere},
+      {"density", "Density: is the front linear only where it is uniform?", "1, 4, 6",
+       "how the work of the front grows at uniform and at graded density", true, true, measure_density},
       {"quality", "Quality: our tetrahedra beside those of other meshers", "6",
        "all three models and your files, compared with other meshers", false, false,
        quality("quality", names_of_paper_models())},
