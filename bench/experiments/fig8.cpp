@@ -47,18 +47,16 @@ const double step = std::pow(10, 0.25);
 const std::vector<std::string> definitions = {
     "Models at uniform density: the lattice has the edge length of the surface everywhere (--grading 0).",
     "Seconds of the CDT: the stages delaunay, face_check, front and label of a run.",
-    "Paper: all of the paper's strategies (--strategies paper): Delaunay face by face in a uniform grid, the front "
-    "with "
-    "the same grid and the paper's visibility tests, midpoints.",
-    "Default: the engine as it is used, whose Delaunay tetrahedralizations are inserted and its lattice cores written "
-    "down.",
+    "Paper (--strategies paper): Delaunay face by face in a grid, the front in a grid, the paper's visibility tests.",
+    "Default: the engine as it is used, with Delaunay tetrahedralization by insertion and lattice cores.",
     "Delaunay refinement, ours: circumcenters instead of a lattice, on the same surface; seconds of the whole mesh.",
     "Seconds of the other meshers: the call of the library that makes the mesh.",
-    "All strategies and sizes are run in one random order, so that a drift of the machine is no part of an exponent.",
+    "All strategies and sizes are run in one random order: a drift of the machine is no part of an exponent.",
     "Work: exact counts of what a stage did. They have no noise; the interval of their exponents comes from bends.",
     "Exponent: slope of the logarithms over those of the size, with the interval of Student's t for 95%.",
-    "Linear: the whole interval is within 0.1 of 1. A fit of times is judged from two decades and eight sizes on, one "
-    "of work from three decades on; neither if the sizes scatter by more than 15%.",
+    "Linear: the whole interval is within 0.1 of 1.",
+    "A fit of times is judged from two decades and eight sizes on, one of work from three decades on.",
+    "A fit is not judged if the sizes scatter by more than 15% around it.",
     "Better: n or n log n, whichever makes the measurements at least twenty times as likely; else they cannot tell.",
     "Wrap's Delaunay stage does not include the tetrahedralization of the input alone, which edge protection needs.",
     "Meshes with more than twice the wanted number of tetrahedra are not verified.",

@@ -73,14 +73,14 @@ const std::vector<Ratio> all_ratios = {{"with check / Delaunay", with_check, del
 
 const std::vector<std::string> definitions = {
     "The models are ours: the paper gives neither the geometry nor the sizes of its three parts.",
-    "The first three rows are the paper's algorithm (--strategies paper): Delaunay face by face in a uniform grid, the "
-    "front with the same grid and the paper's visibility tests, midpoints. The verdicts are about these.",
+    "The first three rows are the paper's algorithm (--strategies paper); the verdicts are about these.",
+    "It is Delaunay face by face in a uniform grid, a front in the same grid, its visibility tests, and midpoints.",
     "Default: the engine as it is used. All ways make the same tetrahedra.",
     "Delaunay: the Delaunay stage of the run with the check, on all vertices of the mesh.",
     "CDT: the stages delaunay, face_check, front and label of a run. It keeps all Steiner vertices.",
     "Without the check, every face goes through the front.",
     "Searched: the front searches for each apex, with the engine's own test of visibility, in the paper's grid.",
-    "Looked up: for a face that is Delaunay, the front copies the apex from the finished Delaunay tetrahedralization. "
+    "Looked up: for a face that is Delaunay, the front copies the apex from the finished tetrahedralization.",
     "That is a look-up and no search, so this row is no ablation.",
     "Not included in CDT times: facets, the constrained Delaunay triangulation of each facet, once before the lattice.",
     "Also not included: finish, which restores the units of the coordinates and checks the result.",
