@@ -162,4 +162,11 @@ std::string_view bare_name(std::string_view function) {
   return function;
 }
 
+std::uint64_t inclusive_instructions(const CallGraph& graph, std::string_view function) {
+  std::uint64_t sum = 0;
+  for (const auto& [caller, callee] : graph.calls)
+    if (bare_name(callee.name) == function && bare_name(caller) != function) sum += callee.instructions;
+  return sum;
+}
+
 }  // namespace ccdt::gate

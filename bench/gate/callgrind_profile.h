@@ -28,4 +28,8 @@ CallGraph read_callgrind(std::string_view profile);
 /// a function (a lambda), for a template, or in an unnamed namespace.
 std::string_view bare_name(std::string_view function);
 
+/// The cost of all calls of a function by others, with what it calls.
+/// \param function  its bare name
+std::uint64_t inclusive_instructions(const CallGraph& graph, std::string_view function);
+
 }  // namespace ccdt::gate

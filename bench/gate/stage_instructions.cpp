@@ -51,14 +51,6 @@ const StageFunction* stage_function(std::string_view name) {
   return found == stage_functions.end() ? nullptr : found;
 }
 
-/// The cost of all calls of a function by others.
-std::uint64_t instructions_of(const CallGraph& graph, std::string_view function) {
-  std::uint64_t sum = 0;
-  for (const auto& [caller, callee] : graph.calls)
-    if (bare_name(callee.name) == function && bare_name(caller) != function) sum += callee.instructions;
-  return sum;
-}
-
 std::vector<std::string> all_names_of(const CallGraph& graph, std::string_view function) {
   std::set<std::string> names;
   for (const auto& [caller, callee] : graph.calls)
@@ -108,7 +100,7 @@ StageInstructions stage_instructions(std::string_view profile) {
   std::uint64_t sum = 0;
   for (const auto& [stage, instructions] : stages) sum += instructions;
 
-  const std::uint64_t mesh = instructions_of(graph, whole);
+  const std::uint64_t mesh = inclusive_instructions(graph, whole);
   if (mesh == 0)
     throw InputError("the function ccdt::mesh_plc is not in the profile", {},
                      "build the program without -flto, do not strip it, and let it mesh with --mesher ccdt");
@@ -117,7 +109,7 @@ StageInstructions stage_instructions(std::string_view profile) {
   if (share < 0 || share > largest_rest) fail_for_inlined(share, found);
   stages["mesh"] = mesh;
   stages["rest"] = mesh - sum;
-  stages["remesh"] = instructions_of(graph, remesh);
+  stages["remesh"] = inclusive_instructions(graph, remesh);
   return stages;
 }
 

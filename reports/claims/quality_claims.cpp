@@ -66,6 +66,37 @@ void add_lattices(Results results, PaperClaim& claim) {
                    yes_or_no(is_best(row)), yes_or_no(weaker_holds || !is_weak(row))));
 }
 
+/// Slivers with the rule of smallest spheres alone and without any rule, on one model.
+struct SphereRule {
+  ClaimRow with;
+  double slivers = 0, slivers_without = 0;  ///< per 1,000 tetrahedra at the surface
+
+  BoundTest avoids() const {
+    if (slivers == 0 && slivers_without == 0) return BoundTest::undecided;
+    return yes_or_no(slivers < slivers_without);
+  }
+};
+
+/// One measure for each model. The weaker form asks for most of them.
+void add_sphere_rule(Results results, PaperClaim& claim) {
+  std::vector<SphereRule> models;
+  for (const ClaimRow& with : rows_of(results, "min-sphere", "slivers",
+                                      {{"sphere_rule", "on"}, {"clearance_rule", "off"}, {"status", "ok"}})) {
+    const auto without =
+        rows_of(results, "min-sphere", "slivers",
+                {{"model", with.text("model")}, {"sphere_rule", "off"}, {"clearance_rule", "off"}, {"status", "ok"}});
+    if (!without.empty())
+      models.push_back({with, with.number("slivers_per_1000"), without.front().number("slivers_per_1000")});
+  }
+  const auto holding =
+      std::ranges::count_if(models, [](const SphereRule& rule) { return rule.avoids() == BoundTest::holds; });
+  const BoundTest on_most = yes_or_no(2 * holding > std::ssize(models));
+  for (const SphereRule& rule : models)
+    claim.measured.push_back(
+        measure_of(rule.with, rule.with.text("model") + ": slivers per 1,000 tetrahedra at the surface", rule.slivers,
+                   "less than " + rounded(rule.slivers_without) + ", without it", rule.avoids(), on_most));
+}
+
 }  // namespace
 
 std::vector<PaperClaim> quality_claims(Results results) {
@@ -88,6 +119,16 @@ std::vector<PaperClaim> quality_claims(Results results) {
   fcc.weaker = "FCC alone is the best by the mean or by the worst r.";
   add_lattices(results, fcc);
   claims.push_back(fcc);
+
+  PaperClaim spheres{
+      "min-sphere-avoids-slivers",
+      "3",
+      "Slivers are avoided if no interior point is in the smallest sphere of a face of the surface (after "
+      "Cavendish, Field and Frey).",
+      {"min-sphere"}};
+  spheres.weaker = "There are fewer slivers at the surface of most models.";
+  add_sphere_rule(results, spheres);
+  claims.push_back(spheres);
   return claims;
 }
 

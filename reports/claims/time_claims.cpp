@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "bench/experiments/growth.h"
@@ -97,6 +99,79 @@ PaperClaim others_claim(Results results) {
   return claim;
 }
 
+/// Is visibility the largest part? Its tests are a lower bound of it, and the whole front is an upper one.
+BoundTest is_largest_part(const ClaimRow& row) {
+  const double tests = row.number("visibility"), rest_of_front = row.number("rest_of_front"),
+               outside = std::max(row.number("delaunay"), row.number("others"));
+  if (tests > std::max(rest_of_front, outside)) return BoundTest::holds;
+  return tests + rest_of_front < outside ? BoundTest::fails : BoundTest::undecided;
+}
+
+PaperClaim visibility_claim(Results results) {
+  constexpr double more_than_half = 0.5;
+  PaperClaim claim{"visibility-is-most-expensive",
+                   "5",
+                   "The determination of visibility is the most time consuming procedure of the CDT.",
+                   {"visibility-cost"}};
+  claim.weaker = "It is the largest single part of the CDT's cost.";
+  if (!was_measured(results, "visibility-cost")) return claim;
+  for (const ClaimRow& row : rows_of(results, "visibility-cost", "instructions")) {
+    const std::string what = row.text("model") + ": share of visibility in the CDT without the check",
+                      bound = "more than half";
+    const bench::Estimate* share = row.estimate("share");
+    claim.measured.push_back(share == nullptr
+                                 ? missing_measure(what, bound, "visibility-cost", "instructions")
+                                 : measure_of(row, what, *share, bound,
+                                              experiments::is_at_least(*share, more_than_half), is_largest_part(row)));
+  }
+  return claim;
+}
+
+/// The exponent of a count at one density that may be judged; null if there is none.
+const bench::Estimate* exponent_at(Results results, const std::string& density, const std::string& quantity,
+                                   std::optional<ClaimRow>& found) {
+  const auto rows = rows_of(results, "density", "growth",
+                            {{"density", density}, {"locator", "grid"}, {"quantity", quantity}, {"judged", "yes"}});
+  if (rows.empty()) return nullptr;
+  found = rows.front();
+  return found->estimate("exponent");
+}
+
+/// The growth of a count at both densities.
+void add_densities(Results results, const std::string& quantity, PaperClaim& claim) {
+  const double bound = 1 + experiments::linear_within;
+  std::optional<ClaimRow> even_row, graded_row;
+  const bench::Estimate *even = exponent_at(results, "uniform", quantity, even_row),
+                        *graded = exponent_at(results, "graded", quantity, graded_row);
+  const std::string of_even = "exponent of " + quantity + " at uniform density", to_even = "at most " + rounded(bound),
+                    of_graded = "exponent of " + quantity + " at graded density",
+                    from_graded = "more than " + rounded(bound);
+  claim.measured.push_back(even == nullptr ? missing_measure(of_even, to_even, "density", "growth")
+                                           : measure_of(*even_row, of_even, *even, to_even,
+                                                        experiments::is_at_most(*even, bound), BoundTest::holds));
+  if (even == nullptr || graded == nullptr) {
+    claim.measured.push_back(missing_measure(of_graded, from_graded, "density", "growth"));
+    return;
+  }
+  const BoundTest is_faster = graded->low > even->high   ? BoundTest::holds
+                              : graded->high < even->low ? BoundTest::fails
+                                                         : BoundTest::undecided;
+  claim.measured.push_back(
+      measure_of(*graded_row, of_graded, *graded, from_graded, experiments::is_at_least(*graded, bound), is_faster));
+}
+
+PaperClaim density_claim(Results results) {
+  PaperClaim claim{"linear-only-if-uniform",
+                   "Abstract, 1, 4, 6",
+                   "The front takes linear time at uniform density; at other densities, the paper's grid does not "
+                   "promise it.",
+                   {"density"}};
+  claim.weaker = "Its work grows faster at graded density than at uniform density.";
+  if (!was_measured(results, "density")) return claim;
+  for (const std::string quantity : {"candidates", "visibility tests"}) add_densities(results, quantity, claim);
+  return claim;
+}
+
 }  // namespace
 
 std::vector<PaperClaim> time_claims(Results results) {
@@ -140,6 +215,8 @@ std::vector<PaperClaim> time_claims(Results results) {
                                 "Delaunay tetrahedralization face by face in a uniform grid is linear, too.",
                                 {"paper, with check", of_delaunay, "delaunay"}));
   claims.push_back(others_claim(results));
+  claims.push_back(visibility_claim(results));
+  claims.push_back(density_claim(results));
   return claims;
 }
 
