@@ -114,16 +114,18 @@ int insphere_sign(const std::array<std::array<std::int64_t, 3>, 4>& m) {
   return sign_of(sum);
 }
 
-/// Sign of the sum of four products first[i] * second[i] of 62 and 93 bits, added up in two digits.
+/// Sign of the sum of four products first[i] * second[i] of 62 and 93 bits, added up in two digits. The first factors
+/// are not negative.
 int sum_sign_in_two_digits(const std::array<std::int64_t, 4>& first, const std::array<Int128, 4>& second) {
-  Int128 low = 0, high = 0;
+  UnsignedInt128 low = 0;  // up to 12 * 2^124: there is no bit left for a sign
+  Int128 high = 0;
   for (std::size_t i = 0; i < 4; ++i) {
-    low += Int128(low_digit(second[i])) * first[i];
+    low += UnsignedInt128(low_digit(second[i])) * static_cast<std::uint64_t>(first[i]);
     high += rest(second[i]) * first[i];
   }
-  high += rest(low);
+  high += static_cast<std::uint64_t>(low >> 64);
   if (high != 0) return sign_of(high);
-  return low_digit(low) != 0 ? 1 : 0;
+  return static_cast<std::uint64_t>(low) != 0 ? 1 : 0;
 }
 
 /// Sign of the sum of up to four products first[i] * second[i] of 123 bits each, added up in three digits of 64.
