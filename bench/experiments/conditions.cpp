@@ -21,21 +21,16 @@ using conforming::SphereContent;
 
 std::vector<std::string> definitions() {
   return {
-      "Radovitzky and Ortiz (2000), as the paper says in section 5.2: the surface is in a Delaunay tetrahedralization "
-      "if "
-      "all boundary triangles have empty minimal circumspheres.",
-      "The paper: \"this condition is so strict that few bodies can fit it without local transformations and "
-      "subdivision\".",
+      "Radovitzky and Ortiz (2000), in the paper's section 5.2: all minimal circumspheres of the boundary are empty.",
+      "The paper says that it is so strict that few bodies fulfill it without transformations and subdivision.",
       "Minimal circumsphere: the smallest sphere through the three corners; its center is in their plane.",
       "Empty: no vertex is strictly inside, decided exactly.",
       "Vertices on the sphere are allowed; regular grids have them, and the models without any are counted too.",
       "Theorem 1: all faces are Delaunay, and so are all grazeable segments.",
       "Vertices: those of the input, and with FCC the interior points that ccdt places; no Steiner vertices.",
-      "Interior points keep out of the smallest ball around each face, as split by ccdt; around an obtuse one, it is "
-      "smaller than the minimal circumsphere, so they may add violations.",
-      "Faces: the constrained Delaunay triangulation of each facet, the same for both conditions; others of a flat "
-      "facet "
-      "have larger spheres.",
+      "Interior points keep out of the smallest ball around each face, as split by ccdt.",
+      "Around an obtuse face, that is smaller than the minimal circumsphere: such points may add violations.",
+      "Faces: the constrained Delaunay triangulation of each facet; others of a flat facet have larger spheres.",
       "A face with nothing in or on its minimal circumsphere is Delaunay; every case is checked for that.",
       "Both conditions are tested on the engine's grid, after rounding by less than 2.4e-10 of the box.",
   };

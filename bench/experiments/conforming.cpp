@@ -25,11 +25,10 @@ std::vector<std::string> definitions() {
       "Conforming: all tetrahedra are Delaunay, every segment is a union of their edges, every facet of their faces.",
       "Both start from the vertices of the input alone, and interior points are not counted (--lattice none).",
       "CCDT: the Steiner vertices of ccdt mesh --lattice none --improve none --steiner keep, all on segments.",
-      "The conforming one is ours too, with the same kernel and the same splits of segments, midpoint or shell; it "
-      "splits "
-      "all missing segments, not the grazeable ones alone.",
-      "A missing face gets a vertex at its circumcenter; if that is beyond a segment of the facet, or in the diametral "
-      "sphere of one, the segment is split instead (Ruppert 1995, Shewchuk 1998).",
+      "The conforming one is ours too, with the same kernel and the same splits of segments, midpoint or shell.",
+      "It splits all missing segments, not the grazeable ones alone.",
+      "A missing face gets a vertex at its circumcenter (Ruppert 1995, Shewchuk 1998).",
+      "If that is beyond a segment of the facet, or in the diametral sphere of one, the segment is split instead.",
       "Such vertices are added until no segment and no face is missing in the Delaunay tetrahedralization of all.",
       "Limit: a segment became too short, or there were more than " + std::to_string(most_growth) +
           " times the vertices of the input and " + with_separators(more_vertices) +

@@ -301,9 +301,8 @@ StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::strin
       "Every mesher gets the edge length at which it makes as many tetrahedra as the paper's mesh, found by search.",
       "Rows that differ by more than 3% from that number are shown but not compared.",
       "paper fcc: the paper's lattice, swaps and smoothing (--improve swap-smooth). The claim is about this row.",
-      "refinement: Delaunay refinement of our own on the same surface, with the same swaps and smoothing. So it "
-      "differs "
-      "in one thing, where the interior vertices are. Its bound is TetGen's: circumradius / shortest edge <= 1.414.",
+      "refinement: Delaunay refinement of our own on the same surface, with the same swaps and smoothing.",
+      "So it differs in one thing, where the interior vertices are. Its bound of radius over edge is TetGen's, 1.414.",
       "ccdt, tetgen and gmsh-hxt keep the surface; cgal-mesh3 makes its own within a tenth of the edge length.",
       "ccdt fcc and bcc: --improve all, unless marked unimproved; tetgen: -pYq1.414/10a.",
       "cgal-mesh3: with perturbation and exudation.",
@@ -325,14 +324,13 @@ StudyPlan lattices_plan() {
                  .definitions = unit_cell_definitions(),
                  .conclude = conclude_lattices,
                  .once = true};
-  append(plan.definitions, std::vector<std::string>{
-                               "Meshes: all lattices have the same number of vertices per volume and the same surface.",
-                               "Inside: tetrahedra of the unimproved mesh none of whose vertices is on the surface, or "
-                               "joined by an edge to one that is.",
-                               "Thin models have none at small scales.",
-                               "In meshes, FCC is confirmed as the best by a measure if it alone is in every case.",
-                               "Improvement stops at a target: lattices that all reach it differ in worst values by "
-                               "chance."});
+  append(plan.definitions,
+         std::vector<std::string>{
+             "Meshes: all lattices have the same number of vertices per volume and the same surface.",
+             "Inside: no vertex is on the surface, or joined by an edge to one that is; unimproved.",
+             "Thin models have none at small scales.",
+             "In meshes, FCC is confirmed as the best by a measure if it alone is in every case.",
+             "Improvement stops at a target: lattices that reach it differ in worst values by chance."});
   for (const bool improved : {false, true})
     for (const std::string name : {"fcc", "bcc", "sc"})
       plan.variants.push_back({.name = name + (improved ? " improved" : ""),

@@ -165,11 +165,11 @@ ResultTable unit_cell_criteria_table(const ResultTable& unit_cells) {
   return table;
 }
 
-std::vector<std::string> unit_cell_findings(const ResultTable& criteria) {
+std::vector<std::string> unit_cell_findings(const ResultTable& table) {
   std::vector<std::string> findings;
   std::vector<std::string> best;
   std::map<std::string, std::vector<std::string>> others;
-  for (const RowView& row : rows_with(criteria)) {
+  for (const RowView& row : rows_with(table)) {
     if (row.text("confirmed") == "yes")
       best.push_back(row.text("criterion"));
     else

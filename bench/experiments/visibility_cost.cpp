@@ -17,16 +17,12 @@ namespace ccdt::experiments {
 namespace {
 
 const std::vector<std::string> definitions = {
-    "All of the paper's strategies (--strategies paper), and every face goes through the front (--face-protection "
-    "off).",
+    "The paper's strategies (--strategies paper), and every face goes through the front (--face-protection off).",
     "Instructions: machine instructions of one run, counted by callgrind. They have no noise.",
-    "Visibility tests: instructions of the exact tests whether a face of the input hides a vertex, and of what they "
-    "call.",
-    "Share: from the tests alone to the whole front. The look-up of the faces that are tested is in between; it shares "
-    "its functions with the look-up of candidates.",
+    "Visibility tests: instructions of the exact tests whether a face hides a vertex, and of what they call.",
+    "Share: from the tests alone to the whole front. The look-up of the faces that are tested is in between.",
     "CDT: Delaunay, face check, front and labels.",
-    "Callgrind is 50 times as slow, so the models have an eighth of the wanted number of tetrahedra, if they can be as "
-    "coarse."};
+    "Callgrind is 50 times as slow: the models have an eighth of the wanted tetrahedra, if they can be as coarse."};
 
 /// The share of callgrind's wanted size in the wanted number of tetrahedra.
 constexpr double share_of_size = 0.125;
