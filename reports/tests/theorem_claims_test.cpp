@@ -40,8 +40,8 @@ struct FamilyCounts {
 ClaimVerdict theorem_verdict(const std::vector<FamilyCounts>& families, const std::string& id) {
   std::vector<std::vector<results::Cell>> rows;
   for (const FamilyCounts& f : families)
-    rows.push_back({std::string("family"), f.position, f.cases, f.against_if, f.cases, f.against_only_if, f.cases,
-                    f.without_cdt});
+    rows.push_back(
+        {std::string("family"), f.position, f.cases, f.against_if, f.cases, f.against_only_if, f.cases, f.without_cdt});
   return verdict_from("theorem1",
                       {made_up_table("families", 2,
                                      {"family", "position", "premise", "against_if", "dt", "against_only_if",
@@ -89,12 +89,13 @@ TEST(TerminationClaim, NeedsMidpointsToEndForAllInputs) {
 }
 
 ClaimVerdict interior_points_verdict(double lost, double harmed) {
-  return verdict_from("interior-points",
-                      {made_up_table("existence", 1, {"family", "cases", "lost"}, {{std::string("family"), 10.0, lost}}),
-                       made_up_table("rules", 2, {"rule", "lattice", "cases", "harmed"},
-                                     {{std::string("rule"), std::string("all"), 10.0, harmed},
-                                      {std::string("rule"), std::string("fcc"), 10.0, 5.0}})},
-                      "interior-points-harmless");
+  return verdict_from(
+      "interior-points",
+      {made_up_table("existence", 1, {"family", "cases", "lost"}, {{std::string("family"), 10.0, lost}}),
+       made_up_table("rules", 2, {"rule", "lattice", "cases", "harmed"},
+                     {{std::string("rule"), std::string("all"), 10.0, harmed},
+                      {std::string("rule"), std::string("fcc"), 10.0, 5.0}})},
+      "interior-points-harmless");
 }
 
 TEST(InteriorPointsClaim, IsRefutedByOnePointThatDoesHarm) {
