@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "bench/surface_limit.h"
 
@@ -60,6 +61,23 @@ TEST(SurfaceLimit, ABadTetrahedronAmongGoodTrianglesIsNotTheSurfacesFault) {
   EXPECT_FALSE(limit.limits_quality());
 }
 
+/// All of its edges have other lengths: 2, 3, 4 from the corner, then the roots of 13, 20 and 25.
+const std::array<Point3, 4> uneven = {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}}};
+
+TEST(Quality, EachEdgeCountsOnce) {
+  // Squared edges 4, 9, 16, 13, 20, 25, volume 4.
+  EXPECT_NEAR(bench::shape_measure(uneven), std::pow(87 / 6.0, 1.5) / (6 * std::sqrt(2.0) * 4), 1e-13);
+  // The circumscribed sphere is that of the box.
+  EXPECT_NEAR(bench::radius_edge_ratio(uneven), std::sqrt(29.0) / 2 / 2, 1e-13);
+  std::array<Point3, 4> corners = uneven;
+  std::ranges::sort(corners, {}, [](const Point3& p) { return std::array{p.x, p.y, p.z}; });
+  do {
+    EXPECT_NEAR(bench::shape_measure(corners), bench::shape_measure(uneven), 1e-13);
+    EXPECT_NEAR(bench::radius_edge_ratio(corners), bench::radius_edge_ratio(uneven), 1e-13);
+    EXPECT_NEAR(bench::aspect_ratio(corners), bench::aspect_ratio(uneven), 1e-13);
+  } while (std::ranges::next_permutation(corners, {}, [](const Point3& p) { return std::array{p.x, p.y, p.z}; }).found);
+}
+
 TEST(Quality, FlatTetrahedronIsInfinitelyBad) {
   for (const auto measure : {bench::shape_measure, bench::aspect_ratio, bench::radius_edge_ratio})
     EXPECT_TRUE(std::isinf(measure({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}})));
@@ -101,6 +119,7 @@ TEST(Quality, HistogramsCountEveryTetrahedronAndEveryAngle) {
   EXPECT_EQ(sum(quality.dihedral_degrees.histogram), 12u);
   EXPECT_EQ(quality.r.histogram.edges.size(), quality.r.histogram.counts.size() + 1);
   EXPECT_EQ(quality.dihedral_degrees.histogram.counts[14], 6u);  // 70 to 75 degrees: the regular one's
+  EXPECT_EQ(quality.dihedral_degrees.histogram.counts[18], 3u);  // 90 to 95 degrees: the corner's right angles
 }
 
 TEST(Quality, AnglesAreCountedInTheBinsOfTheirDegrees) {
@@ -136,6 +155,59 @@ TEST(Quality, OfAMeshSummarizesItsTetrahedra) {
   EXPECT_EQ(quality.radius_edge_ratio.median, bench::radius_edge_ratio(corner));
   EXPECT_NEAR(quality.dihedral_degrees.max, 90, 1e-12);
   EXPECT_NEAR(quality.volume, 1.0 / 6, 1e-15);
+}
+
+/// Corners of more and more uneven boxes, and one beyond the first 8,192 of another shape.
+mesh::TetMesh long_mesh() {
+  mesh::TetMesh mesh;
+  for (std::uint32_t i = 0; i < 10001; ++i) {
+    const double size = i == 9000 ? 1e-3 : 1 + i * 1e-3;
+    const std::array<Point3, 4> corners = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {i == 9000 ? -3.0 : 0.0, 0, size}}};
+    mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
+    mesh.tetrahedra.push_back({4 * i, 4 * i + 1, 4 * i + 2, 4 * i + 3});
+  }
+  return mesh;
+}
+
+TEST(Quality, QuantilesAreThoseOfTheSortedValues) {
+  const mesh::TetMesh mesh = long_mesh();
+  std::vector<double> r;
+  double widest = 0;
+  for (const auto& t : mesh.tetrahedra) {
+    const std::array corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]};
+    r.push_back(bench::shape_measure(corners));
+    widest = std::max(widest, std::ranges::max(bench::dihedral_angles(corners)));
+  }
+  std::ranges::sort(r);
+  const bench::Quality quality = bench::measure_quality(mesh);
+  EXPECT_DOUBLE_EQ(quality.r.min, r.front());
+  EXPECT_DOUBLE_EQ(quality.r.median, r[5000]);
+  EXPECT_DOUBLE_EQ(quality.r.p99, r[9900]);
+  EXPECT_DOUBLE_EQ(quality.r.max, r.back());
+  EXPECT_DOUBLE_EQ(quality.dihedral_degrees.max, widest);
+}
+
+TEST(Quality, CountsOfALongMeshAreThoseOfAllItsParts) {
+  const mesh::TetMesh mesh = long_mesh();
+  const bench::Quality quality = bench::measure_quality(mesh);
+  const auto sum = [](const bench::Histogram& h) { return std::accumulate(h.counts.begin(), h.counts.end(), 0ull); };
+  EXPECT_EQ(sum(quality.dihedral_degrees.histogram), 6 * mesh.tetrahedra.size());
+  EXPECT_EQ(sum(quality.r.histogram), mesh.tetrahedra.size());
+}
+
+TEST(Quality, TheLastBinsAreForTheWorstTetrahedra) {
+  for (const auto& [height, from_the_end] : {std::pair{0.01, 1u}, {0.005, 0u}, {1e-4, 0u}}) {  // r is 0.707 / height
+    const bench::Histogram r =
+        bench::measure_quality(mesh_of({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, height}}})).r.histogram;
+    EXPECT_EQ(r.counts[r.counts.size() - 1 - from_the_end], 1u) << height;
+  }
+}
+
+TEST(Quality, AnInvertedTetrahedronHasANegativeVolume) {
+  mesh::TetMesh mesh = mesh_of(uneven);
+  EXPECT_NEAR(bench::measure_quality(mesh).volume, 4, 1e-14);
+  mesh.tetrahedra.push_back({0, 2, 1, 3});
+  EXPECT_NEAR(bench::measure_quality(mesh).volume, 0, 1e-14);
 }
 
 TEST(Quality, OfAnEmptyMeshIsZero) {

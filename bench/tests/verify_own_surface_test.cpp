@@ -72,8 +72,9 @@ TEST(VerifyOwnSurface, MeshesThatOverlapAreFound) {
 /// Two triangles, of which the second has some of the vertices of the first.
 std::size_t crossings(const std::array<std::uint32_t, 3>& other) {
   plc::InputPlc plc;
-  plc.vertices = {{0, 0, 0},  {4, 0, 0}, {0, 4, 0},                         // the first triangle
-                  {1, 1, -1}, {1, 1, 1}, {3, 3, 5}, {1, 1, 0}, {4, 5, 0}};  // below, above, away; on it, beside it
+  plc.vertices = {{0, 0, 0},  {4, 0, 0}, {0, 4, 0},                        // the first triangle
+                  {1, 1, -1}, {1, 1, 1}, {3, 3, 5}, {1, 1, 0}, {4, 5, 0},  // below, above, away; on it, beside it
+                  {9, 9, -1}, {9, 9, 1}};                                  // far away, below and above
   plc.triangles = {{0, 1, 2}, other};
   return verify::find_crossings(plc).size();
 }
@@ -83,6 +84,7 @@ TEST(Crossings, AreFoundOfTrianglesThatShareAnyNumberOfVertices) {
   EXPECT_EQ(crossings({4, 5, 7}), 0u);
   EXPECT_EQ(crossings({6, 4, 5}), 1u) << "it touches";
   EXPECT_EQ(crossings({0, 3, 4}), 1u);
+  EXPECT_EQ(crossings({0, 8, 9}), 1u) << "it cuts the opposite edge";
   EXPECT_EQ(crossings({0, 4, 5}), 0u);
   EXPECT_EQ(crossings({0, 6, 7}), 1u) << "in one plane";
   EXPECT_EQ(crossings({0, 1, 4}), 0u);
