@@ -15,16 +15,16 @@ namespace {
 
 const std::vector<std::string> definitions = {
     "Uniform: a cube with a square grid on each face, and a lattice of the same edge length.",
-    "Graded: a cube whose squares shrink 128-fold toward a corner, and a lattice whose edges grow away from the "
-    "surface. Its edges keep their ratios at all sizes.",
+    "Graded: a cube whose squares shrink 128-fold toward a corner, and a lattice whose edges grow inward.",
+    "The graded cube's edges keep their ratios at all sizes.",
     "Grid: all of the paper's strategies (--strategies paper). Octree: ours, with the paper's visibility tests.",
     "All faces go through the front (--face-protection off).",
     "Work: exact counts of what the front did, over the number of its tetrahedra. They have no noise.",
     "Candidates: vertices that were tried as an apex. Visibility tests: faces tested because they may hide one.",
     "Grid cells are shown, not judged: what a cell holds costs, and is counted as candidates and tests.",
     "Exponent: slope of the logarithms, with the interval of Student's t for 95%.",
-    "At uniform density a fit is judged from three decades and eight sizes on. At graded density, where work grows "
-    "quadratically, one decade and four sizes suffice to see that it is not linear.",
+    "At uniform density a fit is judged from three decades and eight sizes on.",
+    "At graded density, where work grows quadratically, one decade and four sizes show that it is not linear.",
 };
 
 /// A cube, and how it is filled and meshed.

@@ -16,8 +16,7 @@ const std::vector<std::string> definitions = {
     "FCC lattice with the edge length of the surface, unimproved. The claim is about the sphere rule alone.",
     "At the surface: tetrahedra with a vertex on the boundary or an interior facet.",
     "Slivers: a dihedral angle below 5 degrees. Other limits stand beside it: 10 degrees, and r above 5.",
-    "With an interior vertex: the other slivers have all vertices on the surface; a rule for lattice points affects "
-    "these only indirectly."};
+    "With an interior vertex: other slivers have all vertices on the surface, which no rule for the lattice moves."};
 
 std::string on_or_off(bool rule) {
   return rule ? "on" : "off";

@@ -16,7 +16,7 @@ ResultTable unit_cells_table();
 ResultTable unit_cell_criteria_table(const ResultTable& unit_cells);
 
 /// By which criteria is FCC the best, and which lattice is it by the others?
-std::vector<std::string> unit_cell_findings(const ResultTable& criteria);
+std::vector<std::string> unit_cell_findings(const ResultTable& table);
 
 /// What the two tables mean, and the rule of the verdict.
 std::vector<std::string> unit_cell_definitions();
