@@ -243,13 +243,16 @@ TEST(Protection, SplitsAreCountedByLevelWhichForMidpointsIsTheDepthOfTheBisectio
     const std::vector<std::uint64_t> splits = protection::count_splits_by_level(chains);
     EXPECT_EQ(std::accumulate(splits.begin(), splits.end(), std::uint64_t{0}), added);
     deepest = std::max(deepest, splits.size());
+    std::vector<std::uint64_t> by_level(splits.size(), 0);
     for (std::size_t s = 0; s < chains.size(); ++s)
       for (const protection::ChainVertex& v : chains[s]) {
+        if (v.level > 0) ++by_level.at(v.level - 1);
         // A midpoint of depth k is an odd multiple of 2^-k.
         const std::uint32_t unit = protection::whole_segment >> v.level;
         EXPECT_TRUE(v.level == 0 ? v.fraction % protection::whole_segment == 0 : v.fraction / unit % 2 == 1);
         EXPECT_EQ(v.fraction % unit, 0u);
       }
+    EXPECT_EQ(by_level, splits);
   }
   EXPECT_GE(deepest, 2u);
 }
