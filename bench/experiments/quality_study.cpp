@@ -143,7 +143,13 @@ void measure_source(const SourceStudy& study, std::vector<QualityRow>& rows, std
     const QualityVariant& variant = study.plan.variants[i];
     std::optional<InsideQuality> inside;
     if (variant.measures_inside) inside = measure_inside(study.runner, measured[i]);
-    rows.push_back({{std::move(measured[i])}, study.source.name, variant.labels, edge_lengths[i], reference, inside});
+    rows.push_back({{std::move(measured[i])},
+                    study.source.name,
+                    variant.labels,
+                    edge_lengths[i],
+                    reference,
+                    inside,
+                    study.plan.equal_counts ? tolerance_of_equal_counts : tolerance_of_one_edge_length});
   }
 }
 
@@ -284,7 +290,6 @@ ResultTable surfaces_table(std::span<const EvenSurface> surfaces) {
 }  // namespace
 
 bool QualityRow::is_comparable() const {
-  constexpr double tolerance = 0.03;  // of the number of tetrahedra, as a fraction
   const auto tetrahedra = static_cast<double>(measured.first.counts.tetrahedra);
   return std::abs(tetrahedra / static_cast<double>(reference) - 1) <= tolerance;
 }

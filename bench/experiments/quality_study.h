@@ -51,6 +51,10 @@ struct InsideQuality {
   bench::Quality quality = {};
 };
 
+/// How far the numbers of tetrahedra of comparable meshes may differ, as a share: if every variant got the edge length
+/// for it, and if all got the same edge length.
+inline constexpr double tolerance_of_equal_counts = 0.03, tolerance_of_one_edge_length = 0.15;
+
 /// A variant on a surface. Seconds are of meshing.
 struct QualityRow : CaseRow {
   std::string model;
@@ -58,6 +62,7 @@ struct QualityRow : CaseRow {
   double edge_length = 0;                    ///< target edge length
   std::uint64_t reference = 0;               ///< tetrahedra of the first variant
   std::optional<InsideQuality> inside = {};  ///< if its variant measures it; without tetrahedra if the run failed
+  double tolerance = tolerance_of_equal_counts;
   /// Is the number of tetrahedra comparable?
   bool is_comparable() const;
 };

@@ -165,10 +165,10 @@ TEST(GrowthClaims, ExpectRefinementToBeSteeper) {
 TEST(GrowthClaims, AskTetGenTooIfItWasMeasured) {
   results::ExperimentResult result = fig8({{"Delaunay refinement, ours", "mesh", {1.3, 1.2, 1.4}}});
   EXPECT_EQ(verdict_of(result, "refinement-is-not-linear"), reports::ClaimVerdict::confirmed);
-  result.tables[1].rows.push_back({{std::string("bracket"), std::string("TetGen, its own vertices"),
-                                    std::string("mesh"), bench::Estimate{1, 0.99, 1.01}, std::string("n"),
-                                    std::string("yes")},
-                                   {}});
+  result.tables[1].rows.push_back(
+      {{std::string("bracket"), std::string("TetGen, its own vertices"), std::string("mesh"),
+        bench::Estimate{1, 0.99, 1.01}, std::string("n"), std::string("yes")},
+       {}});
   EXPECT_EQ(verdict_of(result, "refinement-is-not-linear"), reports::ClaimVerdict::refuted);
 }
 

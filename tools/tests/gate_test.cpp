@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "baselines/json_schema.h"
 #include "tools/tests/gate_recordings.h"
 
 namespace ccdt {
@@ -17,13 +16,6 @@ TEST_F(Gate, OneReportIsARecording) {
   write_pair(set("work.delaunay.walk_steps", 1001));
   EXPECT_EQ(run("gate base/a.off.json --against base").exit_code, 0);
   EXPECT_EQ(run("gate head/a.off.json --against base/a.off.json").exit_code, 1);
-}
-
-TEST_F(Gate, TheVerdictIsWhatItsSchemaSays) {
-  write_pair(set("counts.steiner_vertices", 5));
-  run("gate head --against base -o out");
-  const std::string schema = text_of(VERDICT_SCHEMA);
-  EXPECT_NO_THROW(baselines::read_user_file(work() / "out/verdict.json", {"a verdict", schema.c_str(), ""}));
 }
 
 TEST_F(Gate, MoreWorkFailsByItsSizeWithTheCommandThatRepeatsIt) {
