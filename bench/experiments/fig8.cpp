@@ -39,7 +39,7 @@ struct SizeRange {
   double most;
 };
 constexpr std::array<SizeRange, 3> ranges = {{{"piston", 8, 10}, {"bracket", 7.5, 40}, {"stepping-pole", 6, 12}}};
-constexpr double small_scale = 50000, most_at_small_scales = 2.5;  ///< where minutes are wanted, not verdicts
+constexpr double small_scale = 50000, most_at_small_scales = 1.5;  ///< where minutes are wanted, not verdicts
 
 /// From one size to the next, tetrahedra grow by this factor: four sizes in a decade.
 const double step = std::pow(10, 0.25);
