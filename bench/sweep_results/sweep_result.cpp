@@ -146,8 +146,8 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
   result.definitions = {
       "A case is one mesher on one input with one set of options.",
       "Seconds: the median of the counted runs of a case, of meshing alone.",
-      "Intervals are between order statistics and cover the median in 95% of all cases; of fewer than six runs "
-      "there is none.",
+      "Intervals are between order statistics, and cover the median in 95% of all cases.",
+      "Of fewer than six runs there is no interval.",
       "spread: the half-width of the interval is more than requested, or more than 10% of the median.",
       "r is 1 for the regular tetrahedron and larger for all others.",
       "If there are very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",
