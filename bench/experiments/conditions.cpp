@@ -53,13 +53,13 @@ ResultTable cases_table(std::span<const ConditionsRow> rows) {
       figure("touched", "empty, with a vertex on it", &ConditionsRow::touched),
       figure("undelaunay", "not Delaunay (Theorem 1)", &ConditionsRow::undelaunay),
       figure("missing_edges", "missing grazeable segments", &ConditionsRow::missing_edges),
-      figure("theirs", "Radovitzky and Ortiz", &ConditionsRow::fulfils_theirs),
-      figure("theorem", "Theorem 1", &ConditionsRow::fulfils_theorem),
+      figure("theirs", "Radovitzky and Ortiz", &ConditionsRow::fulfills_theirs),
+      figure("theorem", "Theorem 1", &ConditionsRow::fulfills_theorem),
       reason_column()};
   return table_of_rows("cases", "The cases", columns, rows);
 }
 
-/// How many models fulfil which condition, with a lattice or with all.
+/// How many models fulfill which condition, with a lattice or with all.
 void add_shares(std::span<const ConditionsRow> rows, std::optional<Lattice> lattice, ResultTable& table) {
   std::uint64_t count = 0, theirs = 0, strictly = 0, theorem = 0, only_theirs = 0, only_theorem = 0;
   std::vector<std::string> runs;
@@ -67,11 +67,11 @@ void add_shares(std::span<const ConditionsRow> rows, std::optional<Lattice> latt
     if (!row.ok() || (lattice && row.lattice != *lattice)) continue;
     ++count;
     append(runs, runs_of(row));
-    theirs += row.fulfils_theirs() ? 1 : 0;
+    theirs += row.fulfills_theirs() ? 1 : 0;
     strictly += row.occupied + row.touched == 0 ? 1 : 0;
-    theorem += row.fulfils_theorem() ? 1 : 0;
-    only_theirs += row.fulfils_theirs() && !row.fulfils_theorem() ? 1 : 0;
-    only_theorem += row.fulfils_theorem() && !row.fulfils_theirs() ? 1 : 0;
+    theorem += row.fulfills_theorem() ? 1 : 0;
+    only_theirs += row.fulfills_theirs() && !row.fulfills_theorem() ? 1 : 0;
+    only_theorem += row.fulfills_theorem() && !row.fulfills_theirs() ? 1 : 0;
   }
   if (count > 0)
     add_row(table, runs, lattice ? std::string(name_of(*lattice)) : "all", count, theirs, strictly, theorem,
@@ -80,7 +80,7 @@ void add_shares(std::span<const ConditionsRow> rows, std::optional<Lattice> latt
 
 ResultTable models_table(std::span<const ConditionsRow> rows) {
   ResultTable table = table_of(
-      "models", "Models that fulfil the conditions",
+      "models", "Models that fulfill the conditions",
       {label_column("lattice"), figure_column("models", "models and sizes"),
        figure_column("theirs", "Radovitzky and Ortiz"),
        figure_column("strictly", "of these, with no vertex on a sphere"), figure_column("theorem", "Theorem 1"),
@@ -93,10 +93,10 @@ ResultTable models_table(std::span<const ConditionsRow> rows) {
 std::string finding(const RowView& row) {
   const std::uint64_t models = row.count("models");
   return "Lattice " + row.text("lattice") + ": of " + with_separators(models) + " models, " +
-         with_separators(row.count("theirs")) + " fulfil the condition of Radovitzky and Ortiz (" +
+         with_separators(row.count("theirs")) + " fulfill the condition of Radovitzky and Ortiz (" +
          with_separators(row.count("strictly")) + " with no vertex on a sphere), " +
          with_separators(row.count("theorem")) + " that of Theorem 1; " + with_separators(row.count("only_theirs")) +
-         " fulfil the first alone";
+         " fulfill the first alone";
 }
 
 /// Does the engine's report say the same? It adds Steiner vertices before it counts, so only without them.

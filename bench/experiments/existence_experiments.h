@@ -101,14 +101,14 @@ struct ConditionsRow : CaseRow {
   std::uint64_t missing_edges = 0;   ///< grazeable segments that are not Delaunay: the same
   std::uint64_t contradictions = 0;  ///< undelaunay faces with nothing in or on their smallest sphere; must be 0
 
-  bool fulfils_theirs() const { return occupied == 0; }
-  bool fulfils_theorem() const { return undelaunay == 0 && missing_edges == 0; }
+  bool fulfills_theirs() const { return occupied == 0; }
+  bool fulfills_theorem() const { return undelaunay == 0 && missing_edges == 0; }
 };
 
 /// Finds what a PLC with these interior points (grid units) has against both conditions.
 void count_violations(const plc::Plc& plc, std::span<const Point3> interior, ConditionsRow& row);
 
-/// Counts the models that fulfil the condition of Radovitzky and Ortiz (2000), and those that fulfil Theorem 1's
+/// Counts the models that fulfill the condition of Radovitzky and Ortiz (2000), and those that fulfill Theorem 1's
 /// (paper, section 5.2): our solids, the parts that come along and the user's files, without interior points and with
 /// FCC's.
 ///

@@ -93,14 +93,14 @@ InputPlc tetrahedron(double height) {
 }
 
 TEST(Conditions, OfATetrahedronAreTheorem1sAlways) {
-  for (const double height : {1.0, 4.0, 16.0}) EXPECT_TRUE(conditions_of(tetrahedron(height)).fulfils_theorem());
+  for (const double height : {1.0, 4.0, 16.0}) EXPECT_TRUE(conditions_of(tetrahedron(height)).fulfills_theorem());
 }
 
 TEST(Conditions, OfAFlatTetrahedronAreNotRadovitzkysAndOrtiz) {
   const experiments::ConditionsRow flat = conditions_of(tetrahedron(1));
   EXPECT_EQ(flat.faces, 4u);
   EXPECT_GT(flat.occupied, 0u);
-  EXPECT_FALSE(flat.fulfils_theirs());
+  EXPECT_FALSE(flat.fulfills_theirs());
 }
 
 TEST(Conditions, OfARegularTetrahedronAreBoth) {
@@ -108,17 +108,17 @@ TEST(Conditions, OfARegularTetrahedronAreBoth) {
   regular.vertices = {{0, 0, 0}, {8, 8, 0}, {8, 0, 8}, {0, 8, 8}};
   regular.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
   const experiments::ConditionsRow row = conditions_of(regular);
-  EXPECT_TRUE(row.fulfils_theirs());
+  EXPECT_TRUE(row.fulfills_theirs());
   EXPECT_EQ(row.touched, 0u);
-  EXPECT_TRUE(row.fulfils_theorem());
+  EXPECT_TRUE(row.fulfills_theorem());
 }
 
 TEST(Conditions, AllowVerticesOnTheSpheresOfARegularGrid) {
   const experiments::ConditionsRow cube = conditions_of(models::make_solid("cube", 0.25));
   EXPECT_EQ(cube.faces, 192u);
   EXPECT_EQ(cube.touched, 192u);  // each right triangle has the fourth corner of its square on its circle
-  EXPECT_TRUE(cube.fulfils_theirs());
-  EXPECT_TRUE(cube.fulfils_theorem());
+  EXPECT_TRUE(cube.fulfills_theirs());
+  EXPECT_TRUE(cube.fulfills_theorem());
 }
 
 TEST(Conditions, OfRadovitzkyAndOrtizImplyTheorem1s) {
@@ -129,7 +129,7 @@ TEST(Conditions, OfRadovitzkyAndOrtizImplyTheorem1s) {
       const experiments::ConditionsRow row = conditions_of(input);
       EXPECT_EQ(row.contradictions, 0u) << solid.name << " " << factor;
       if (row.occupied + row.touched == 0) {
-        EXPECT_TRUE(row.fulfils_theorem()) << solid.name << " " << factor;
+        EXPECT_TRUE(row.fulfills_theorem()) << solid.name << " " << factor;
       }
     }
 }
@@ -137,8 +137,8 @@ TEST(Conditions, OfRadovitzkyAndOrtizImplyTheorem1s) {
 TEST(Conditions, SeeTheReflexEdgesOfSchoenhardtsPolyhedron) {
   const experiments::ConditionsRow row = conditions_of(models::make_solid("schoenhardt", 0));
   EXPECT_GT(row.missing_edges, 0u);  // of three: its vertices are nearly on one sphere
-  EXPECT_FALSE(row.fulfils_theirs());
-  EXPECT_FALSE(row.fulfils_theorem());
+  EXPECT_FALSE(row.fulfills_theirs());
+  EXPECT_FALSE(row.fulfills_theorem());
 }
 
 // ---- Conforming Delaunay tetrahedralizations ------------------------------------------------------------------------

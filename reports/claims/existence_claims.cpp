@@ -107,21 +107,22 @@ PaperClaim fewer_vertices(Results results) {
 }
 
 PaperClaim weaker_condition(Results results) {
-  PaperClaim claim{"weaker-condition-than-radovitzky",
-                   "5.2",
-                   "Few bodies fulfil the condition of Radovitzky and Ortiz, that the smallest spheres of all boundary "
-                   "triangles are empty; Theorem 1's condition asks for less.",
-                   {"conditions"}};
+  PaperClaim claim{
+      "weaker-condition-than-radovitzky",
+      "5.2",
+      "Few bodies fulfill the condition of Radovitzky and Ortiz, that the smallest spheres of all boundary "
+      "triangles are empty; Theorem 1's condition asks for less.",
+      {"conditions"}};
   claim.weaker = "Theorem 1's holds wherever the other one does.";
   for (const ClaimRow& row : rows_of(results, "conditions", "models", {{"lattice", "all"}})) {
     const double models = row.number("models"), theirs = row.number("theirs"), theorem = row.number("theorem");
     const BoundTest includes = yes_or_no(row.number("only_theirs") == 0);
-    claim.measured.push_back(measure_of(row, "models that fulfil only Radovitzky and Ortiz' condition",
+    claim.measured.push_back(measure_of(row, "models that fulfill only Radovitzky and Ortiz' condition",
                                         row.number("only_theirs"), "0", includes, includes));
-    claim.measured.push_back(measure_of(row, "models that fulfil Theorem 1's", theorem,
+    claim.measured.push_back(measure_of(row, "models that fulfill Theorem 1's", theorem,
                                         "more than " + with_separators(static_cast<std::uint64_t>(theirs)),
                                         yes_or_no(theorem > theirs), BoundTest::holds));
-    claim.measured.push_back(measure_of(row, "models that fulfil Radovitzky and Ortiz' condition", theirs,
+    claim.measured.push_back(measure_of(row, "models that fulfill Radovitzky and Ortiz' condition", theirs,
                                         "few: at most half of " + with_separators(static_cast<std::uint64_t>(models)),
                                         yes_or_no(theirs <= models / 2), BoundTest::holds));
   }

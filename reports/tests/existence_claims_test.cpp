@@ -49,7 +49,7 @@ TEST(ExistenceClaims, WantFewerVerticesThanAConformingOneOnEveryInput) {
   EXPECT_EQ(verdict({0, 0, 0}, {0, 0, 0}), ClaimVerdict::not_testable);
 }
 
-/// Models, and those that fulfil the condition of Radovitzky and Ortiz, Theorem 1's, and only the first one.
+/// Models, and those that fulfill the condition of Radovitzky and Ortiz, Theorem 1's, and only the first one.
 struct Fulfilled {
   double models, theirs, theorem, only_theirs;
 };
