@@ -47,10 +47,10 @@ void judge(PaperClaim& claim) {
     if (any(claim, &ClaimMeasure::strong, BoundTest::fails))
       claim.reason =
           "Different from the paper: " + names_of_measures(claim, &ClaimMeasure::strong, BoundTest::fails) + ". ";
-    claim.reason += (claim.weaker.empty() ? "The" : "For the weaker form (" + claim.weaker + ") the") +
-                    std::string(" measurements do not suffice: ") +
-                    names_of_measures(claim, &ClaimMeasure::weak, BoundTest::undecided) +
-                    ". More runs or larger models may decide them.";
+    if (!claim.weaker.empty()) claim.reason += "Not decided even in the weaker form: " + claim.weaker + " ";
+    claim.reason +=
+        "There is not enough data on: " + names_of_measures(claim, &ClaimMeasure::weak, BoundTest::undecided) +
+        ". More runs or larger models may decide.";
   } else {
     claim.verdict = ClaimVerdict::reservation;
     const BoundTest found =

@@ -17,8 +17,8 @@ inline constexpr double radius_per_edge = 0.83;
 /// there is a bad cell, a vertex is inserted at its circumcenter. A cell is bad if it is *skinny*, its circumradius
 /// over its shortest edge being above `options.radius_edge`, or *large*, its circumradius being above `radius_per_edge`
 /// times the target edge length at its circumcenter, which is that of the lattices: the leaf of the octree there has it
-/// (`lattice::build_octree`). The cell with the largest of these ratios
-/// comes first, up to 2 percent.
+/// (`lattice::build_octree`). The cell with the largest circumradius over its shortest edge comes first, up to 3
+/// percent.
 ///
 /// The surface is fixed, so nothing that is encroached is split. A circumcenter that is not strictly inside the domain,
 /// or too near to the surface by the rule for lattice points (see `lattice::place_lattice_points`), is not inserted,
