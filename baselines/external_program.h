@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "baselines/stop.h"
+
 namespace ccdt::baselines {
 
 /// The path of an external program: the value of the environment variable, otherwise the first program of that name on
@@ -36,7 +38,8 @@ std::optional<std::string> first_in_log(const std::filesystem::path& log, const 
 /// line matches.
 std::optional<double> sum_in_log(const std::filesystem::path& log, const std::string& pattern);
 
-/// A new folder for temporary files, which is removed with its contents at the end.
+/// A new folder for temporary files, which is removed with its contents at the end. Until then, signals ask this
+/// process to stop (`StopSignals`), so that they do not leave the folder behind.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -47,6 +50,7 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  StopSignals signals_;
   std::filesystem::path path_;
 };
 

@@ -38,9 +38,9 @@ FailureKind failure_kind_of(const std::exception& error) {
   if (const auto* system_error = dynamic_cast<const std::system_error*>(&error))
     return failure_kind_of_system(system_error->code());
   if (is<InputError>(error)) return FailureKind::invalid_input;
+  if (is<MemoryError>(error) || is<std::bad_alloc>(error)) return FailureKind::out_of_memory;
   if (is<LimitError>(error) || is<OutputError>(error)) return FailureKind::limit;  // usually a full disk
   if (is<Error>(error)) return FailureKind::refused;
-  if (is<std::bad_alloc>(error)) return FailureKind::out_of_memory;
   return FailureKind::crashed;
 }
 

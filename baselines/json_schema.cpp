@@ -10,6 +10,7 @@
 #include <valijson/validator.hpp>
 
 #include "baselines/guess.h"
+#include "baselines/parse_json.h"
 #include "engine/io/files.h"
 
 namespace ccdt::baselines {
@@ -134,7 +135,7 @@ nlohmann::ordered_json read_user_file(const std::filesystem::path& file, const U
   const io::FileBytes bytes = io::read_whole_file(file);
   nlohmann::ordered_json json;
   try {
-    json = nlohmann::ordered_json::parse(bytes.bytes);
+    json = parse_json(bytes.bytes);
   } catch (const nlohmann::ordered_json::parse_error& error) {
     io::fail_at_byte(bytes, error.byte, std::string(kind.what) + " must be JSON, but this is not",
                      std::string("correct the file there") + kind.examples);

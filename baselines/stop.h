@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <csignal>
 #include <stdexcept>
 
 namespace ccdt::baselines {
@@ -16,5 +18,26 @@ void request_stop();
 
 /// Has this process been asked to stop?
 bool stop_requested();
+
+/// From now on, SIGINT, SIGTERM and SIGHUP remove all unfinished files (`io::remove_unfinished_files`) and end this
+/// process with the exit code that shells give such an end: 128 plus the number of the signal. After `nohup`, SIGHUP
+/// stays ignored.
+void clean_up_on_signals();
+
+/// As long as the object lives, these signals do not end this process but ask it to stop, by `request_stop`. Objects
+/// may be nested. If nothing was stopped, the signal takes effect at the end of the outermost one.
+class StopSignals {
+ public:
+  StopSignals();
+  ~StopSignals();
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+ private:
+  std::array<struct sigaction, 3> before_{};
+};
+
+/// The exit code of a process that a signal asked to stop.
+int stopped_exit_code();
 
 }  // namespace ccdt::baselines

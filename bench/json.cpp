@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "baselines/parse_json.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 
@@ -19,7 +20,7 @@ void write_json(const Json& json, const std::filesystem::path& file) {
 
 void parse_document(const std::string& text, const DocumentKind& kind, const std::function<void(const Json&)>& read) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = baselines::parse_json(text);
     if (!json.is_object() || json.value("schema", "") != kind.schema) throw InputError(kind.fault, {}, kind.remedy);
     read(json);
   } catch (const Error&) {

@@ -480,8 +480,8 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   for (StageSeconds* seconds : {&costs.seconds, &costs.cpu_seconds})
     for (const MeshStage& stage : mesh_stages) seconds->mesh += seconds->*stage.seconds;
-  return {std::move(t.mesh), std::move(t.counts), costs.seconds,         costs.cpu_seconds,
-          costs.threads,     costs.work,          t.plc.largest_rounding};
+  return {std::move(t.mesh), std::move(t.counts), costs.seconds,          costs.cpu_seconds,
+          costs.threads,     costs.work,          t.plc.largest_rounding, t.plc.idle_holes.size()};
 }
 
 }  // namespace

@@ -142,7 +142,8 @@ struct MeshResult {
   StageSeconds cpu_seconds;  ///< of all threads of the process together
   StageThreads threads;
   StageWork work;
-  double largest_rounding = 0;  ///< largest change of an input coordinate, in the units of the input
+  double largest_rounding = 0;   ///< largest change of an input coordinate, in the units of the input
+  std::uint64_t idle_holes = 0;  ///< seeds of holes where nothing is enclosed; they were not used
 };
 
 /// The improvement with these options: the given one; by default everything, but nothing if the lattice is `none`,

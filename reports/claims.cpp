@@ -48,9 +48,8 @@ void judge(PaperClaim& claim) {
       claim.reason =
           "Different from the paper: " + names_of_measures(claim, &ClaimMeasure::strong, BoundTest::fails) + ". ";
     if (!claim.weaker.empty()) claim.reason += "Not decided even in the weaker form: " + claim.weaker + " ";
-    claim.reason +=
-        "There is not enough data on: " + names_of_measures(claim, &ClaimMeasure::weak, BoundTest::undecided) +
-        ". More runs or larger models may decide.";
+    claim.reason += "Undecided: " + names_of_measures(claim, &ClaimMeasure::weak, BoundTest::undecided) +
+                    ". More runs or larger models may decide.";
   } else {
     claim.verdict = ClaimVerdict::reservation;
     const BoundTest found =

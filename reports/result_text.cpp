@@ -41,10 +41,17 @@ std::string aligned(const std::string& text, std::size_t column, std::size_t to)
   return column == 0 ? text + spaces : spaces + text;
 }
 
-/// A text for a Markdown cell, which a bar would end; a line feed would end the row.
-std::string escaped(const std::string& text) {
+/// For a cell of a Markdown table, which a bar would end; a line feed would end the row.
+std::string in_cell(const std::string& markdown) {
   std::string safe;
-  for (const char c : text) safe += c == '|' ? "\\|" : c == '\n' ? " " : std::string(1, c);
+  for (const char c : markdown) safe += c == '|' ? "\\|" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+  return safe;
+}
+
+/// Texts of our own have code in backticks; what comes from files must not open HTML.
+std::string without_html(const std::string& text) {
+  std::string safe;
+  for (const char c : text) safe += c == '<' ? "&lt;" : std::string(1, c);
   return safe;
 }
 
@@ -117,7 +124,8 @@ std::string list(const std::string& title, const char* bullet, const std::vector
   return text + "\n";
 }
 
-std::string markdown_list(const std::string& title, const std::vector<std::string>& lines) {
+std::string markdown_list(const std::string& title, std::vector<std::string> lines) {
+  std::ranges::transform(lines, lines.begin(), without_html);
   return list("## " + title + "\n", "- ", lines);
 }
 
@@ -274,10 +282,30 @@ std::string to_terminal(const TextTable& table) {
   return text;
 }
 
-std::string to_markdown(const TextTable& table) {
+std::string markdown_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (std::string_view("\\`*[]").find(c) != std::string_view::npos) safe += '\\';
+    safe += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return safe;
+}
+
+std::string markdown_code(const std::string& text) {
+  if (text.empty()) return "";
+  std::size_t longest = 0, run = 0;  // of backticks
+  for (const char c : text) longest = std::max(longest, run = c == '`' ? run + 1 : 0);
+  if (longest == 0) return "`" + text + "`";
+  const std::string fence(longest + 1, '`');
+  return fence + " " + text + " " + fence;
+}
+
+std::string to_markdown(const TextTable& table, const std::set<std::size_t>& code_columns) {
   TextTable cells = table;
-  for (auto& row : cells)
-    for (auto& cell : row) cell = escaped(cell);
+  for (std::size_t r = 0; r < cells.size(); ++r)
+    for (std::size_t c = 0; c < cells[r].size(); ++c)
+      cells[r][c] =
+          in_cell(r > 0 && code_columns.contains(c) ? markdown_code(cells[r][c]) : markdown_text(cells[r][c]));
   const auto widths = column_widths(cells, 3);
   std::string text;
   for (std::size_t r = 0; r < cells.size(); ++r) {
@@ -347,13 +375,13 @@ std::string to_terminal(const ExperimentResult& result, std::size_t most_rows) {
 }
 
 std::string to_markdown(const ExperimentResult& result) {
-  std::string text = "# " + result.title + "\n\n" + how_measured(result.how) + "\n\n";
+  std::string text = "# " + markdown_text(result.title) + "\n\n" + how_measured(result.how) + "\n\n";
   text += markdown_list("Findings", result.findings) + markdown_list("Problems", result.problems);
   for (const ResultTable& table : result.tables)
     if (!table.is_data && !table.rows.empty())
-      text += "## " + table.title + "\n\n" + to_markdown(text_table(table)) + "\n";
-  return text + markdown_list("Definitions", result.definitions) + "## How it was measured\n\n`" + result.how.command +
-         "`\n\n" + machine(result.how.environment) + "\n";
+      text += "## " + markdown_text(table.title) + "\n\n" + to_markdown(text_table(table)) + "\n";
+  return text + markdown_list("Definitions", result.definitions) + "## How it was measured\n\n" +
+         markdown_code(result.how.command) + "\n\n" + markdown_text(machine(result.how.environment)) + "\n";
 }
 
 std::string summarize(const bench::RunRecord& r) {

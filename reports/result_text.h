@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -22,8 +24,14 @@ using TextTable = std::vector<std::vector<std::string>>;
 /// For a terminal: columns are aligned by spaces, and a rule follows the heading.
 std::string to_terminal(const TextTable& table);
 
-/// In Markdown, with aligned columns so that the source is readable too.
-std::string to_markdown(const TextTable& table);
+/// In Markdown, with aligned columns so that the source is readable too. The cells of some columns are shown as code.
+std::string to_markdown(const TextTable& table, const std::set<std::size_t>& code_columns = {});
+
+/// A text in Markdown that shows the same characters. Files may hold any text, even HTML.
+std::string markdown_text(const std::string& text);
+
+/// The same as code.
+std::string markdown_code(const std::string& text);
 
 /// A table for people: empty columns are left out, numbers are rounded, estimates have their intervals, and a failed
 /// row says why.

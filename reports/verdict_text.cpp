@@ -203,19 +203,15 @@ std::string limits_line(const Verdict& verdict) {
          " confidence; a case whose clock, noise or builds allow less has a higher limit";
 }
 
-std::string code(const std::string& text) {
-  return text.empty() ? "" : "`" + text + "`";
-}
-
 std::string markdown_table(const std::vector<const JudgedFigure*>& figures, std::size_t most_rows) {
   TextTable table = {{"figure", "case", "base", "head", "change", "certainty", "repeat"}};
   for (std::size_t i = 0; i < std::min(most_rows, figures.size()); ++i) {
     const JudgedFigure& figure = *figures[i];
-    table.push_back({code(figure.name), code(figure.case_name), side_text(figure.base, figure.base_text, figure),
+    table.push_back({figure.name, figure.case_name, side_text(figure.base, figure.base_text, figure),
                      side_text(figure.head, figure.head_text, figure), change_text(figure), figure.words,
-                     code(figure.command)});
+                     figure.command});
   }
-  return to_markdown(table);
+  return to_markdown(table, {0, 1, 6});
 }
 
 std::string the_rest(std::size_t count, std::size_t shown) {
@@ -248,8 +244,8 @@ std::string to_terminal(const Verdict& verdict, std::size_t most_lines) {
 }
 
 std::string to_markdown(const Verdict& verdict) {
-  std::string text = "## " + first_line(verdict) + "\n\n" + layers_line(verdict) + "\n\n" + code(verdict.base) +
-                     " -> " + code(verdict.head) + "\n";
+  std::string text = "## " + first_line(verdict) + "\n\n" + markdown_text(layers_line(verdict)) + "\n\n" +
+                     markdown_code(verdict.base) + " -> " + markdown_code(verdict.head) + "\n";
   for (const Part& part : parts()) {
     const auto figures = figures_in(part, verdict);
     if (figures.empty()) continue;
@@ -259,11 +255,9 @@ std::string to_markdown(const Verdict& verdict) {
   }
   const std::vector<std::string> notes = notes_of(verdict);
   if (!notes.empty()) text += "\n### Notes\n\n";
-  for (const std::string& note : notes) text += "* " + note + "\n";
+  for (const std::string& note : notes) text += "* " + markdown_text(note) + "\n";
   if (verdict.figures.empty()) return text + "\n";
-  TextTable table = all_cases(verdict);
-  for (std::size_t i = 1; i < table.size(); ++i) table[i][0] = code(table[i][0]);
-  return text + "\n### All cases\n\n" + to_markdown(table) + "\n";
+  return text + "\n### All cases\n\n" + to_markdown(all_cases(verdict), {0}) + "\n";
 }
 
 }  // namespace ccdt::reports

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "baselines/external_program.h"
+#include "baselines/parse_json.h"
 #include "baselines/process.h"
 #include "bench/results/compact_mesh.h"
 #include "bench/results/kept_mesh.h"
@@ -55,7 +56,7 @@ std::vector<std::string> draw_figures(const std::filesystem::path& folder, const
   const auto log = work.path() / "log";
   const int code = baselines::run_program({node->string(), script.string(), (folder / "report.json").string(),
                                            (folder / "figures").string()},
-                                          {.log = log})
+                                          {.log = log, .limits = baselines::Limits()})
                        .shell_code();
   std::vector<std::string> notes = lines_of(log);
   if (code != 0) notes.push_back("Some figures are missing: drawing ended with code " + std::to_string(code) + ".");
@@ -68,24 +69,21 @@ std::string compact_text(const bench::Json& json) {
   return json.dump(-1, ' ', false, bench::Json::error_handler_t::replace);
 }
 
-/// JSON for a script element: nothing in it can end the element.
+/// JSON for a script element: nothing in it looks like HTML, such as the end of the element or a comment.
 std::string inside_script(const std::string& json) {
   std::string text;
   text.reserve(json.size());
-  for (const char c : json) {
-    if (c == '/' && text.ends_with('<')) text += '\\';
-    text += c;
-  }
+  for (const char c : json) c == '<' ? text += "\\u003c" : text += c;
   return text;
 }
 
-/// The JSON of each existing file, by name.
+/// The JSON of each existing file, by name; not of a link that leads out of the folder.
 bench::Json contents_of(const std::set<std::string>& files, const std::filesystem::path& folder) {
   bench::Json contents = bench::Json::object();
   for (const std::string& file : files) {
-    if (!std::filesystem::exists(folder / file)) continue;
-    bench::Json json = bench::Json::parse(io::read_whole_file(folder / file).bytes, nullptr, false);
-    if (!json.is_discarded()) contents[file] = std::move(json);
+    if (!io::is_within(folder, folder / file)) continue;
+    if (auto json = baselines::try_parse_json(io::read_whole_file(folder / file).bytes))
+      contents[file] = *std::move(json);
   }
   return contents;
 }

@@ -1,14 +1,16 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <exception>
 
+#include "baselines/stop.h"
 #include "engine/version.h"
 #include "tools/commands.h"
 #include "tools/error_words.h"
+#include "tools/terminal.h"
 #include "tools/usage_words.h"
 
 int main(int argc, char** argv) {
   using namespace ccdt::tools;
+  ccdt::baselines::clean_up_on_signals();
   ExitCode exit_code = wrong_usage;
   try {
     CLI::App app("tetrahedral meshing by conforming constrained Delaunay tetrahedralization, and its benchmark",
@@ -36,10 +38,13 @@ int main(int argc, char** argv) {
     try {
       app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-      return app.exit(error) == 0 ? done : wrong_usage;
+      exit_code = app.exit(error) == 0 ? done : wrong_usage;
     }
+    flush_output();
+  } catch (const ccdt::baselines::Stopped&) {
+    return ccdt::baselines::stopped_exit_code();
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", in_words(error).c_str());
+    print_error_line(in_words(error));
     return exit_code_of(error);
   }
   return exit_code;

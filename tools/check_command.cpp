@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,11 +33,11 @@ void check_files(const CheckCommand& command) {
   }
 }
 
-void print(const std::string& file, const repair::Diagnosis& diagnosis, bool details) {
+void print_diagnosis(const std::string& file, const repair::Diagnosis& diagnosis, bool details) {
   constexpr std::size_t usual_places = 3;
-  const std::string verdict = diagnosis.is_valid() ? toned("valid", Tone::good) : toned("NOT VALID", Tone::bad);
-  std::printf("%s%s: %s: %s\n", reports::to_terminal(diagnosis, details ? std::string::npos : usual_places).c_str(),
-              file.c_str(), verdict.c_str(), reports::in_few_words(diagnosis).c_str());
+  print(reports::to_terminal(diagnosis, details ? std::string::npos : usual_places) + file + ": ");
+  diagnosis.is_valid() ? print("valid", Tone::good) : print("NOT VALID", Tone::bad);
+  print(": " + reports::in_few_words(diagnosis) + "\n");
 }
 
 /// \return  is the input, or its repaired copy, valid?
@@ -46,22 +45,21 @@ bool run(const CheckCommand& command) {
   keep_freed_memory();
   check_files(command);
   reports::CheckReport report{.input = command.input};
-  {
-    ProgressBar bar;
+  with_progress(command.input, [&](const Progress& progress) {
     const plc::InputPlc input = io::read_plc(command.input);
-    report.diagnosis = repair::find_faults(input, command.options.flatness, bar.progress());
+    report.diagnosis = repair::find_faults(input, command.options.flatness, progress);
     if (command.repair) {
-      repair::Repaired repaired = repair::repair_input(input, command.options, bar.progress());
+      repair::Repaired repaired = repair::repair_input(input, command.options, progress);
       io::write_plc(repaired.input, command.output);
       // The format may round coordinates, so the file is checked, not what was written into it.
       report.copy = {command.output, std::move(repaired.steps),
-                     repair::find_faults(io::read_plc(command.output), command.options.flatness, bar.progress())};
+                     repair::find_faults(io::read_plc(command.output), command.options.flatness, progress)};
     }
-  }
-  print(command.input, report.diagnosis, command.details);
+  });
+  print_diagnosis(command.input, report.diagnosis, command.details);
   if (report.copy) {
-    std::printf("%s", reports::to_terminal(report.copy->steps).c_str());
-    print(command.output, report.copy->diagnosis, command.details);
+    print(reports::to_terminal(report.copy->steps));
+    print_diagnosis(command.output, report.copy->diagnosis, command.details);
   }
   if (!command.report.empty()) {
     io::OutputFile file(command.report);

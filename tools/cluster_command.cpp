@@ -1,7 +1,6 @@
 #include "tools/cluster_command.h"
 
 #include <charconv>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -14,6 +13,7 @@
 #include "engine/base/errors.h"
 #include "tools/commands.h"
 #include "tools/options.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -75,13 +75,12 @@ std::string count_of(std::size_t count, const char* one, const char* many) {
 void print_submission(const sweep::Submission& submission) {
   const auto running = submission.before.running.size(), queued = submission.before.queued.size();
   if (running + queued > 0)
-    std::printf("%s running, %s in Slurm's queue\n", count_of(running, "chunk is", "chunks are").c_str(),
-                count_of(queued, "is", "are").c_str());
+    print(count_of(running, "chunk is", "chunks are") + " running, " + count_of(queued, "is", "are") +
+          " in Slurm's queue\n");
   if (!submission.job.empty())
-    std::printf("submitted %s as job %s\n", count_of(submission.chunks.size(), "chunk", "chunks").c_str(),
-                submission.job.c_str());
+    print("submitted " + count_of(submission.chunks.size(), "chunk", "chunks") + " as job " + submission.job + "\n");
   else
-    std::printf("nothing to submit\n");
+    print("nothing to submit\n");
 }
 
 }  // namespace
@@ -131,8 +130,8 @@ void prepare_for_cluster(const SweepCommand& command, const PreparedSweep& sweep
   sweep::write_snakefile(
       sweep.folder, chunks,
       {.program = own_program(), .options = options_of_tasks(command), .memory_bytes = limits.memory_bytes});
-  std::printf("%s: snakemake -s %s --cores 1\n", count_of(chunks.size(), "chunk", "chunks").c_str(),
-              (sweep.folder / "Snakefile").c_str());
+  print(count_of(chunks.size(), "chunk", "chunks") + ": snakemake -s " + (sweep.folder / "Snakefile").string() +
+        " --cores 1\n");
 }
 
 std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& folder,
@@ -145,7 +144,7 @@ std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& fold
   try {
     return sweep::count_chunks(chunks, sweep::ask_slurm(folder), missing);
   } catch (const Error& error) {  // the records can be counted without Slurm
-    std::fprintf(stderr, "%s\n", error.what());
+    print_error_line(error.what());
     return {};
   }
 }

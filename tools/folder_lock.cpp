@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <string>
 
 #include "engine/base/errors.h"
@@ -31,7 +32,9 @@ std::string holder(int file) {
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
   const std::string name = (folder / "lock").string();
-  file_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, everyone_may_read);
+  file_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, everyone_may_read);
+  if (file_ < 0 && errno == ELOOP)
+    throw OutputError("this is a link, and a lock is written into it", io::place_in(name), "remove the link");
   if (file_ < 0) throw OutputError("the folder cannot be written to", io::place_in(folder.string()), "choose another");
   // Forks do not inherit this kind of lock. One made by flock would last until the forks of a killed process end, too.
   struct flock whole = {};

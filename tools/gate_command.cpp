@@ -1,7 +1,6 @@
 #include "tools/gate_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,7 +16,6 @@
 #include "tools/commands.h"
 #include "tools/error_words.h"
 #include "tools/options.h"
-#include "tools/stop_signals.h"
 #include "tools/terminal.h"
 
 namespace ccdt::tools {
@@ -181,12 +179,13 @@ ExitCode exit_code_for(Judgment judgment) {
 }
 
 /// The text of a verdict begins with its name, which is colored.
-void print(const Verdict& verdict) {
+void print_verdict(const Verdict& verdict) {
   const std::string name(name_of(verdict.verdict));
   const Tone tone = verdict.verdict == Judgment::passed  ? Tone::good
                     : verdict.verdict == Judgment::worse ? Tone::bad
                                                          : Tone::note;
-  std::printf("%s%s", toned(name, tone).c_str(), reports::to_terminal(verdict).substr(name.size()).c_str());
+  print(name, tone);
+  print(reports::to_terminal(verdict).substr(name.size()));
 }
 
 ExitCode run_gate(const GateCommand& command) {
@@ -194,7 +193,7 @@ ExitCode run_gate(const GateCommand& command) {
   if (!command.markdown.empty()) check_can_be_written(command.markdown);
   if (!command.folder.empty()) std::filesystem::create_directories(command.folder);
   if (command.calibrate) {
-    std::fputs(gate::to_text(measure_calibration(command, rules)).c_str(), stdout);
+    print(gate::to_text(measure_calibration(command, rules)));
     return done;
   }
   GateResult result = judge(command, rules);
@@ -209,22 +208,22 @@ ExitCode run_gate(const GateCommand& command) {
   if (!command.folder.empty())
     bench::write_json(to_json(verdict), std::filesystem::path(command.folder) / "verdict.json");
   if (!command.markdown.empty()) append(command.markdown, reports::to_markdown(verdict));
-  if (!verdict.figures.empty() || !command.update) print(verdict);
-  if (command.update) std::printf("Updated the baseline %s.\n", command.against.c_str());
+  if (!verdict.figures.empty() || !command.update) print_verdict(verdict);
+  if (command.update) print("Updated the baseline " + command.against + ".\n");
   return command.update || verdict.shadow ? done : exit_code_for(verdict.verdict);
 }
 
 ExitCode run(const GateCommand& command) {
-  const StopSignals signals;
+  const baselines::StopSignals signals;
   try {
     return run_gate(command);
   } catch (const baselines::Stopped&) {
-    return static_cast<ExitCode>(stopped_exit_code());
+    throw;
   } catch (const CLI::Error&) {
     throw;
   } catch (const std::exception& error) {
     // Only a verdict ends with 1: whatever else fails, nothing was judged.
-    std::fprintf(stderr, "%s\n", in_words(error).c_str());
+    print_error_line(in_words(error));
     return exit_code_of(error) == failed_a_check ? bad_input : exit_code_of(error);
   }
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -29,6 +28,7 @@
 #include "tools/gate_command.h"
 #include "tools/gate_progress.h"
 #include "tools/sweep_command.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -214,10 +214,9 @@ gate::SampleSet start_samples(const GateCommand& command, const gate::Programs& 
   gate::write_samples(samples, samples_file(command));
   std::size_t pairs = 0;
   for (const gate::PairedSamples& one : samples.cases) pairs += one.screening.size() + one.confirmation.size();
-  std::fprintf(stderr,
-               "Stopped. %zu pairs of runs of %zu cases are kept in %s.\nThe same command with --resume goes on from "
-               "there; without it, the gate starts again.\n",
-               pairs, samples.cases.size(), samples_file(command).c_str());
+  print_error_line("Stopped. " + std::to_string(pairs) + " pairs of runs of " + std::to_string(samples.cases.size()) +
+                   " cases are kept in " + samples_file(command).string() +
+                   ".\nThe same command with --resume goes on from there; without it, the gate starts again.");
   throw baselines::Stopped();
 }
 

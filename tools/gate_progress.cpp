@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "tools/terminal.h"
+
 namespace ccdt::tools {
 namespace {
 
@@ -43,9 +45,8 @@ void GateProgress::show_line(std::string_view stage, std::uint64_t done, std::ui
   const auto now = Clock::now();
   if (now - last_ < pause_of_lines) return;
   last_ = now;
-  std::fprintf(stderr, "ccdt gate: %.*s (%llu of about %llu after %s)\n", static_cast<int>(stage.size()), stage.data(),
-               static_cast<unsigned long long>(done), static_cast<unsigned long long>(total),
-               duration(seconds_since(begin_)).c_str());
+  print_error_line("ccdt gate: " + std::string(stage) + " (" + std::to_string(done) + " of about " +
+                   std::to_string(total) + " after " + duration(seconds_since(begin_)) + ")");
   std::fflush(stderr);
 }
 

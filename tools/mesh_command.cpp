@@ -8,6 +8,7 @@
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
+#include "baselines/stop.h"
 #include "bench/fingerprint.h"
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
@@ -147,6 +148,7 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), input, command.options);
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
+  record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
   if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
   if (command.surface != Surface::keep) record.set_option("surface", std::string(name_of(command.surface)));
@@ -215,6 +217,9 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
       record.quality.r.max > bench::SurfaceLimit::bad_r)
     if (const bench::SurfaceLimit limit = bench::find_surface_limit(result.mesh); limit.limits_quality())
       record.notes.push_back(words_of(limit));
+  if (result.idle_holes > 0)
+    record.notes.push_back("hole points that are outside of everything that the facets enclose were not used: " +
+                           results::with_separators(result.idle_holes));
   if (result.counts.cutting_faces > 0) record.notes.push_back(note_on_overlaps(result.counts.cutting_faces));
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
 }
@@ -231,9 +236,7 @@ auto with_advice_on_input(const std::string& file, const Run& run) {
 }
 
 /// Reads, meshes, measures and writes. At every moment, the record contains what is known of the run.
-void mesh_file(const MeshCommand& command, bench::RunRecord& record) {
-  ProgressBar bar;
-  const Progress progress = bar.progress();
+void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progress& progress) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
 
   report(progress, "read", 0, 0);
@@ -275,8 +278,7 @@ void record_failure(const MeshCommand& command, bench::RunRecord& record, const 
     unread.name = command.input;
     record = begin_record(command, unread);
   }
-  const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;  // its message says nothing
-  record.set_failure(baselines::failure_kind_of(error), memory ? "out of memory" : error.what());
+  record.set_failure(baselines::failure_kind_of(error), error.what());
 }
 
 /// Is the part so small that starting more threads takes longer than they save? Not if it gets many new vertices. On
@@ -295,15 +297,20 @@ void run(MeshCommand command) {
   if (command.options.threads == 0 && is_small(command)) command.options.threads = 1;
   bench::RunRecord record;
   try {
-    with_threads(command.options.threads, [&] { mesh_file(command, record); });
+    with_threads(command.options.threads, [&] {
+      with_progress(command.input, [&](const Progress& progress) { mesh_file(command, record, progress); });
+    });
+  } catch (const baselines::Stopped&) {
+    throw;  // the report stays as it was left for this end
   } catch (const std::exception& error) {
     record_failure(command, record, error);
     if (!command.report.empty()) bench::write_run_record(record, command.report);
     throw;
   }
   if (!command.report.empty()) bench::write_run_record(record, command.report);
-  std::fputs(reports::summarize(record).c_str(), stdout);
-  std::printf("%s: %s\n", toned(command.output, Tone::good).c_str(), reports::in_one_line(record).c_str());
+  print(reports::summarize(record));
+  print(command.output, Tone::good);
+  print(": " + reports::in_one_line(record) + "\n");
 }
 
 std::string meshers_of_build() {

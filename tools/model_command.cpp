@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <memory>
 
 #include "bench/results/numbers.h"
@@ -6,6 +5,7 @@
 #include "models/solids.h"
 #include "tools/commands.h"
 #include "tools/options.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -29,9 +29,8 @@ void run(const ModelCommand& command) {
   check_can_be_written(command.output);
   const plc::InputPlc plc = models::make_solid(command.name, command.edge_length);
   io::write_plc(plc, command.output);
-  std::printf("%s: %s vertices, %s facets\n", command.output.c_str(),
-              results::with_separators(plc.vertices.size()).c_str(),
-              results::with_separators(plc.facet_count()).c_str());
+  print(command.output + ": " + results::with_separators(plc.vertices.size()) + " vertices, " +
+        results::with_separators(plc.facet_count()) + " facets\n");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "tools/terminal.h"
+
 namespace ccdt::tools {
 namespace {
 
@@ -22,7 +24,7 @@ int terminal_columns() {
 
 std::string progress_line(std::string_view stage, std::uint64_t done, std::uint64_t total, double seconds,
                           int columns) {
-  std::string line(stage);
+  std::string line = printable(stage);
   if (total > 0) {
     const double part = std::min(1.0, static_cast<double>(done) / static_cast<double>(total));
     const auto full = static_cast<std::size_t>(part * bar_width);

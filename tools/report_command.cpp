@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <memory>
 #include <sstream>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/options.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -30,9 +30,9 @@ std::string verdicts(const reports::Report& report) {
 /// Writes a report, and prints what could not be made and, last, where the report is.
 void write_and_print(const reports::Report& report, const std::filesystem::path& folder) {
   const reports::WrittenReport written = reports::write_report(report, folder, share_folder());
-  for (const std::string& note : written.notes) std::fprintf(stderr, "%s\n", note.c_str());
+  std::ranges::for_each(written.notes, print_error_line);
   const auto place = std::filesystem::absolute(written.page.empty() ? folder : written.page).lexically_normal();
-  std::printf("\nThe report is in\n%s\n", place.c_str());
+  print("\nThe report is in\n" + place.string() + "\n");
 }
 
 /// The words in indented lines of at most this width.
@@ -52,8 +52,7 @@ void compare(const ReportCommand& command) {
   std::filesystem::create_directories(into);
   const reports::Report report =
       reports::compare_reports(first, second, into, reports::read_charts(share_folder() / "charts"));
-  for (const reports::ReportSection& section : report.sections)
-    std::fputs(reports::to_terminal(section.result).c_str(), stdout);
+  for (const reports::ReportSection& section : report.sections) print(reports::to_terminal(section.result));
   write_and_print(report, into);
 }
 
@@ -95,14 +94,13 @@ std::filesystem::path share_folder() {
 
 void make_report(const std::filesystem::path& folder) {
   const reports::Report report = reports::read_report(folder, reports::read_charts(share_folder() / "charts"));
-  std::fputs(verdicts(report).c_str(), stdout);
+  print(verdicts(report));
   for (const reports::ReportSection& section : report.sections)
-    if (section.result.name == sweep_results::sweep_name)
-      std::fputs(reports::to_terminal(section.result, most_rows).c_str(), stdout);
+    if (section.result.name == sweep_results::sweep_name) print(reports::to_terminal(section.result, most_rows));
   for (const reports::ReportSection& section : report.sections)
     if (section.is_missing)
-      std::printf("\nMissing: %s\n  %s\n  %s\n", section.result.title.c_str(), section.reason.c_str(),
-                  section.result.how.command.c_str());
+      print("\nMissing: " + section.result.title + "\n  " + section.reason + "\n  " + section.result.how.command +
+            "\n");
   write_and_print(report, folder);
 }
 

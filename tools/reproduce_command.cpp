@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -20,7 +19,7 @@
 #include "tools/folder_lock.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
-#include "tools/stop_signals.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -168,7 +167,7 @@ bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& comm
     return known.measure(command.options, runner);
   }();
   results::write_experiment_result(result, command.options.folder);
-  std::printf("%s\n", reports::to_terminal(result).c_str());
+  print(reports::to_terminal(result) + "\n");
   return result.is_good;
 }
 
@@ -193,12 +192,12 @@ bool run(ReproduceCommand& command) {
 }
 
 ExitCode run_until_stopped(ReproduceCommand& command) {
-  const StopSignals signals;
+  const baselines::StopSignals signals;
   try {
     return run(command) ? done : failed_a_check;
   } catch (const baselines::Stopped&) {
-    std::fprintf(stderr, "stopped: all finished runs are kept; repeat the command to continue\n");
-    return static_cast<ExitCode>(stopped_exit_code());
+    print_error_line("stopped: all finished runs are kept; repeat the command to continue");
+    throw;
   }
 }
 

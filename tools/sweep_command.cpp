@@ -1,7 +1,6 @@
 #include "tools/sweep_command.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "baselines/mesher.h"
+#include "baselines/stop.h"
 #include "bench/results/numbers.h"
 #include "bench/sweep/estimate.h"
 #include "bench/sweep/status.h"
@@ -21,7 +21,7 @@
 #include "tools/folder_lock.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
-#include "tools/stop_signals.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -81,14 +81,14 @@ std::vector<cases::MeasuredCase> identify(cases::Runner& runner, std::vector<swe
 
 void print_names(const char* what, const std::vector<std::string>& names) {
   if (names.empty()) return;
-  std::printf("%s %s:\n", results::with_separators(names.size()).c_str(), what);
-  for (std::size_t i = 0; i < std::min(most_names, names.size()); ++i) std::printf("  %s\n", names[i].c_str());
-  if (names.size() > most_names) std::printf("  ...\n");
+  print(results::with_separators(names.size()) + " " + what + ":\n");
+  for (std::size_t i = 0; i < std::min(most_names, names.size()); ++i) print("  " + names[i] + "\n");
+  if (names.size() > most_names) print("  ...\n");
 }
 
 void print_changes(const sweep::SweepChanges& changes) {
   if (changes.none()) return;
-  std::printf("The sweep has changed since the last call.\n");
+  print("The sweep has changed since the last call.\n");
   print_names(changes.added.size() == 1 ? "case is new" : "cases are new", changes.added);
   print_names(
       changes.obsolete.size() == 1 ? "case is obsolete, its records stay" : "cases are obsolete, their records stay",
@@ -120,19 +120,19 @@ void print_status(const SweepCommand& command) {
   const sweep::SweepStatus status = sweep::status_of(known.measured, known.sweep.folder);
   const auto chunks = chunk_status(known.sweep.folder, known.measured);
   if (!command.json) {
-    std::fputs((sweep::in_words(status) + (chunks ? in_words(*chunks) : "")).c_str(), stdout);
+    print(sweep::in_words(status) + (chunks ? in_words(*chunks) : ""));
     return;
   }
   bench::Json json = sweep::to_json(status);
   if (chunks) json["chunks"] = to_json(*chunks);
-  std::fputs(bench::to_text(json).c_str(), stdout);
+  print(bench::to_text(json));
 }
 
 void print_estimate(const SweepCommand& command) {
   const KnownSweep known = look_at(command);
   const auto estimates = sweep::estimate_cases(known.sweep.cases, known.measured);
   const sweep::SweepEstimate sum = sweep::sum_of(known.sweep.cases, known.measured, estimates);
-  std::fputs((command.json ? bench::to_text(sweep::to_json(sum)) : sweep::in_words(sum)).c_str(), stdout);
+  print(command.json ? bench::to_text(sweep::to_json(sum)) : sweep::in_words(sum));
 }
 
 ExitCode run_all(const SweepCommand& command) {
@@ -144,8 +144,9 @@ ExitCode run_all(const SweepCommand& command) {
     return done;
   }
   const ExitCode code = print_results(run_cases(command, sweep, sweep.cases));
-  if (command.jobs > 1) std::printf("\nTimes are not reliable: %d cases ran at the same time.\n", command.jobs);
-  std::printf("\nTables, figures and the page: ccdt report %s\n", command.folder.c_str());
+  if (command.jobs > 1)
+    print("\nTimes are not reliable: " + std::to_string(command.jobs) + " cases ran at the same time.\n");
+  print("\nTables, figures and the page: ccdt report " + command.folder + "\n");
   return code;
 }
 
@@ -154,12 +155,8 @@ ExitCode run(const SweepCommand& command) {
     command.status ? print_status(command) : print_estimate(command);
     return done;
   }
-  const StopSignals signals;
-  try {
-    return command.cluster.chunk >= 0 ? run_chunk(command) : run_all(command);
-  } catch (const baselines::Stopped&) {
-    return static_cast<ExitCode>(stopped_exit_code());
-  }
+  const baselines::StopSignals signals;
+  return command.cluster.chunk >= 0 ? run_chunk(command) : run_all(command);
 }
 
 /// Is the failure a fault of ccdt itself?
@@ -231,8 +228,8 @@ std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const Pr
     return cases::Runner(std::move(settings)).run(sweep::asked_of(cases));
   } catch (const baselines::Stopped&) {
     bar.erase();
-    std::fprintf(stderr, "stopped: %s of %s runs are finished; repeat the command to continue\n",
-                 results::with_separators(finished).c_str(), results::with_separators(all).c_str());
+    print_error_line("stopped: " + results::with_separators(finished) + " of " + results::with_separators(all) +
+                     " runs are finished; repeat the command to continue");
     throw;
   }
 }
@@ -260,7 +257,7 @@ ExitCode print_results(std::span<const cases::MeasuredCase> cases) {
     table.push_back({mesher, results::with_separators(ends.finished + failed), results::with_separators(ends.finished),
                      results::joined(kinds)});
   }
-  std::fputs(reports::to_terminal(table).c_str(), stdout);
+  print(reports::to_terminal(table));
   return is_good ? done : failed_a_check;
 }
 

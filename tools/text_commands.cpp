@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <memory>
 
 #include "engine/io/files.h"
@@ -7,6 +6,7 @@
 #include "tools/commands.h"
 #include "tools/options.h"
 #include "tools/program_text.h"
+#include "tools/terminal.h"
 
 // The verbs that print what the command line says of itself.
 
@@ -16,7 +16,7 @@ namespace {
 void write_man_pages(const ProgramText& program, const std::filesystem::path& folder) {
   const std::vector<ManPage> pages = man_pages(program, std::string(engine_version));
   if (folder.empty()) {
-    for (const ManPage& page : pages) std::fputs(page.text.c_str(), stdout);
+    for (const ManPage& page : pages) print(page.text);
     return;
   }
   std::filesystem::create_directories(folder);
@@ -42,7 +42,7 @@ void add_completion_command(CLI::App& app, ExitCode& exit_code) {
       "  source <(ccdt completion zsh)\n"
       "  ccdt completion fish | source\n");
   verb->callback([shell, &app, &exit_code] {
-    std::fputs(completion_script(text_of(app), *shell).c_str(), stdout);
+    print(completion_script(text_of(app), *shell));
     exit_code = done;
   });
 }
@@ -64,7 +64,7 @@ void add_man_command(CLI::App& app, ExitCode& exit_code) {
   verb->callback([command, &app, &exit_code] {
     const ProgramText program = text_of(app);
     if (command->markdown)
-      std::fputs(markdown_reference(program).c_str(), stdout);
+      print(markdown_reference(program));
     else
       write_man_pages(program, command->folder);
     exit_code = done;

@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <exception>
 #include <memory>
 #include <utility>
@@ -33,9 +32,7 @@ bool run(const VerifyCommand& command) {
     check_are_different(command.input, command.report);
     check_are_different(command.mesh, command.report);
   }
-  verify::Verification verification;
-  {
-    ProgressBar bar;
+  const verify::Verification verification = with_progress(command.mesh, [&](const Progress& progress) {
     InputPlc input;
     TetMesh mesh;
     const auto read_input = [&] {
@@ -53,11 +50,12 @@ bool run(const VerifyCommand& command) {
     // The caller's thread reads the mesh, because it can use the memory again that this takes.
     parallel_both(read_mesh, read_input);
     if (bad_mesh) std::rethrow_exception(bad_mesh);
-    verification = verify::verify(input, mesh, command.options, bar.progress());
-  }
+    return verify::verify(input, mesh, command.options, progress);
+  });
   const std::string text = command.details ? reports::to_terminal(verification) : reports::summarize(verification);
-  const std::string verdict = verification.ok() ? toned("right", Tone::good) : toned("WRONG", Tone::bad);
-  std::printf("%s%s: %s\n", text.c_str(), command.mesh.c_str(), verdict.c_str());
+  print(text + command.mesh + ": ");
+  verification.ok() ? print("right", Tone::good) : print("WRONG", Tone::bad);
+  print("\n");
   if (!command.report.empty()) {
     io::OutputFile report(command.report);
     report << reports::to_json(verification, command.input, command.mesh);

@@ -9,6 +9,7 @@
 #include "baselines/mesher.h"
 #include "baselines/mesher_description.h"
 #include "baselines/mesher_options.h"
+#include "baselines/parse_json.h"
 #include "bench/environment.h"
 #include "bench/results/numbers.h"
 #include "engine/base/errors.h"
@@ -52,11 +53,11 @@ Identity fields_missing_in(const Identity& other, const Identity& identity) {
 
 bench::Json read_identities(const std::filesystem::path& file) {
   const io::FileBytes bytes = io::read_whole_file(file);
-  bench::Json json = bench::Json::parse(bytes.bytes, nullptr, false);
-  if (!json.is_object() || !json.contains(identity_member))
+  auto json = baselines::try_parse_json(bytes.bytes);
+  if (!json || !json->is_object() || !json->contains(identity_member))
     throw InputError("this file does not say which programs made its folder", io::place_in(file.string()),
                      "choose another folder, or remove the file to measure everything again");
-  return json;
+  return *std::move(json);
 }
 
 /// The contents of files, each with the ending that says its format. Where the files are does not matter.

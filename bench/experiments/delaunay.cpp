@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "baselines/parse_json.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
 #include "engine/base/errors.h"
@@ -294,7 +295,7 @@ std::vector<std::string> bench_delaunay_command(const std::filesystem::path& pro
 
 void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& result) {
   try {
-    evaluate(measured_in(bench::Json::parse(benchmark_json)), result);
+    evaluate(measured_in(baselines::parse_json(benchmark_json)), result);
   } catch (const nlohmann::json::exception& error) {
     throw InputError("no JSON of Google Benchmark: " + std::string(error.what()), {}, "measure again");
   }

@@ -41,7 +41,7 @@ struct DensitySeries {
 };
 constexpr double no_limit = 1e18;
 const std::vector<DensitySeries> all_series = {
-    {"uniform", "grid", "cube", "--strategies paper --grading 0", 5.6, 3, 1, 3, 1.2115, 2.5, no_limit},
+    {"uniform", "grid", "cube", "--strategies paper --grading 0", 5.6, 3, 1, 3, 1.2115, 4, no_limit},
     {"graded", "grid", "graded-cube", "--strategies paper", 1500, 2, 0.5, 1, 1, 0.75, 25000},
     {"graded", "octree", "graded-cube", "--locator octree --visibility faces", 1500, 2, 0.5, 1, 1, 1, no_limit}};
 

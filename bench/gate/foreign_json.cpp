@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "baselines/parse_json.h"
 #include "baselines/process.h"
 #include "bench/results/numbers.h"
 
@@ -114,7 +115,7 @@ Json parse_benchmark_json(const std::string& text) {
       is_quoted = !is_quoted;
     json += text[i++];
   }
-  return Json::parse(json);
+  return baselines::parse_json(json);
 }
 
 std::string pattern_of(const std::set<std::string>& names) {

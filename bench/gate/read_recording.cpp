@@ -2,6 +2,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include "baselines/process.h"
@@ -48,9 +49,14 @@ bool is_run(const Json& json) {
   return json.is_object() && json.contains("schema") && json["schema"] == "ccdt.run/1";
 }
 
+/// Longer names are no figures of ours; with many members, they would take more memory than the file by far.
+constexpr std::size_t longest_name = 500;
+
 /// Adds the numbers of a part of the report by their paths. Texts and lists other than histograms are only compared as
 /// a whole. Infinite values are null.
 void add_figures(const std::string& name, const Json& json, std::vector<Figure>& figures) {
+  if (name.size() > longest_name)
+    throw std::invalid_argument("the name of a figure is longer than " + std::to_string(longest_name) + " letters");
   const Layer layer = name.starts_with("seconds") ? Layer::time : Layer::exact;
   if (json.is_object()) {
     for (const auto& [member, value] : json.items())

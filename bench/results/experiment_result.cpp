@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bench/file_names.h"
 #include "bench/json_fields.h"
 
 namespace ccdt::bench {
@@ -79,9 +80,27 @@ bench::Json json_of(const ExperimentResult& result) {
   return json;
 }
 
+/// The report writes files with these names, and reads the others.
+void check_files_of(const ExperimentResult& result) {
+  const auto check_run = [](const std::string& file) {
+    if (!file.empty()) bench::check_file_path(file);
+  };
+  bench::check_file_name(result.name);
+  for (const ResultTable& table : result.tables) {
+    bench::check_file_name(table.name);
+    for (const ResultRow& row : table.rows) std::ranges::for_each(row.runs, check_run);
+  }
+  for (const KeptMesh& mesh : result.meshes) {
+    bench::check_file_path(mesh.file);
+    check_run(mesh.run);
+  }
+  std::ranges::for_each(result.raw_files, bench::check_file_path);
+}
+
 ExperimentResult result_from(const bench::Json& json) {
   ExperimentResult result;
   bench::read_fields(json, fields_of_result, result);
+  check_files_of(result);
   return result;
 }
 

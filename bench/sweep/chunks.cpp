@@ -136,7 +136,7 @@ std::vector<Chunk> read_chunks(const std::filesystem::path& folder) {
 
 ChunkLock::ChunkLock(const std::filesystem::path& folder, int number) {
   const std::string name = chunk_file(folder, number).string();
-  file_ = open(name.c_str(), O_RDWR | O_CLOEXEC);  // NFS locks only writable files
+  file_ = open(name.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);  // NFS locks only writable files
   if (file_ >= 0 && flock(file_, LOCK_EX) == 0) return;
   const std::string fault = std::generic_category().message(errno);
   if (file_ >= 0) close(file_);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "baselines/mesher.h"
+#include "bench/file_names.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::sweep {
@@ -55,6 +56,7 @@ SweepCase case_from(const Json& json, const SweepSpec& common, const std::filesy
   one.input.model = input.value("model", "");
   one.input.edge_length = input.value("edge_length", 0.0);
   json.at("id").get_to(one.id);
+  bench::check_file_name(one.id);
   json.at("name").get_to(one.asked.name);
   json.at("group").get_to(one.asked.group);
   one.asked.mesher = json.value("mesher_file", json.at("mesher").get<std::string>());

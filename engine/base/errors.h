@@ -50,6 +50,12 @@ class LimitError : public Error {
   using Error::Error;
 };
 
+/// There is not enough memory (exit code 4).
+class MemoryError : public LimitError {
+ public:
+  using LimitError::LimitError;
+};
+
 /// The engine could not finish a valid mesh, or a mesh failed a check (exit code 1).
 class MeshError : public Error {
  public:

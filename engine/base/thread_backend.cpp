@@ -13,12 +13,42 @@
 #include <tbb/task_group.h>
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <string>
+
+#include "engine/base/errors.h"
 
 namespace ccdt::thread_backend {
 namespace {
 
 /// One thread alone does without oneTBB, which takes 1 ms to start.
 thread_local bool is_alone = false;
+
+/// Calls `use(guarded)`, which calls our own functions by `guarded`. What else fails is oneTBB itself: it starts
+/// threads when it needs them, and the system may have no memory or number left for another one.
+///
+/// \throw LimitError  oneTBB failed
+/// \throw ...         what our functions throw
+template <class Use>
+void with_errors_of_library(const Use& use) {
+  std::atomic<bool> is_ours = false;
+  const auto guarded = [&](const auto& run) {
+    try {
+      run();
+    } catch (...) {
+      is_ours = true;
+      throw;
+    }
+  };
+  try {
+    use(guarded);
+  } catch (const std::exception& error) {
+    if (is_ours) throw;
+    throw LimitError(std::string("no more threads can be started: ") + error.what(), {},
+                     "use fewer threads, or allow more memory and processes");
+  }
+}
 
 }  // namespace
 
@@ -34,9 +64,11 @@ void run_on(unsigned threads, const std::function<void()>& run) {
   is_alone = threads == 1;
   if (is_alone) return run();
   // Tests use more threads than there are cores.
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::max(threads, core_count()));
-  tbb::task_arena arena(static_cast<int>(threads));
-  arena.execute(run);
+  with_errors_of_library([&](const auto& guarded) {
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, std::max(threads, core_count()));
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute([&] { guarded(run); });
+  });
 }
 
 unsigned thread_count() {
@@ -52,8 +84,11 @@ bool is_canceled() {
 }
 
 void for_ranges(std::size_t count, std::size_t grain, const std::function<void(std::size_t, std::size_t)>& work) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain),
-                    [&](const tbb::blocked_range<std::size_t>& range) { work(range.begin(), range.end()); });
+  with_errors_of_library([&](const auto& guarded) {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, grain),
+        [&](const tbb::blocked_range<std::size_t>& range) { guarded([&] { work(range.begin(), range.end()); }); });
+  });
 }
 
 }  // namespace ccdt::thread_backend

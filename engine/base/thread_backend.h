@@ -11,7 +11,8 @@ unsigned core_count();
 
 /// Calls `run()` with this many threads for its loops.
 ///
-/// \throw ...  what `run` throws
+/// \throw LimitError  a thread cannot be started; loops throw it, too
+/// \throw ...         what `run` throws
 void run_on(unsigned threads, const std::function<void()>& run);
 
 unsigned thread_count();

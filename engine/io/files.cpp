@@ -29,6 +29,15 @@ bool is_there(const std::filesystem::path& file) {
   return std::filesystem::exists(file, ignored);
 }
 
+bool is_within(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::error_code error;
+  const auto place = std::filesystem::canonical(file, error);
+  if (error) return false;
+  const auto of_folder = std::filesystem::canonical(folder, error);
+  if (error) return false;
+  return std::ranges::mismatch(of_folder, place).in1 == of_folder.end();
+}
+
 void check_is_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -56,8 +65,8 @@ FileBytes read_whole_file(const std::filesystem::path& file) {
   try {
     result.bytes.resize(size);
   } catch (const std::exception&) {
-    throw LimitError("out of memory: the file has " + std::to_string(size) + " bytes", place,
-                     "use a machine with more memory or a coarser model");
+    throw MemoryError("out of memory: the file has " + std::to_string(size) + " bytes", place,
+                      "use a machine with more memory or a coarser model");
   }
   if (const std::size_t got = std::fread(result.bytes.data(), 1, size, in.get()); got != size)
     throw InputError("reading stopped after " + std::to_string(got) + " of " + std::to_string(size) + " bytes", place,
@@ -97,6 +106,7 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
     throw OutputError("is not a regular file and cannot be replaced", place_in(target_.string()),
                       "name an ordinary file");
   temporary_ = temporary_beside(target_);
+  unfinished_.emplace(temporary_);
   stream_ = std::fopen(temporary_.c_str(), "wbx");
   if (!stream_) fail(errno);
   buffer_.reserve(buffer_size + 64);

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/point.h"
+#include "engine/io/unfinished_files.h"
 
 namespace ccdt::io {
 
@@ -25,13 +27,16 @@ struct FileBytes {
 
 bool is_there(const std::filesystem::path& file);
 
+/// Does the file exist in the folder or below it, wherever links lead?
+bool is_within(const std::filesystem::path& folder, const std::filesystem::path& file);
+
 /// \throw InputError  no such file, a folder, or not a regular file
 void check_is_file(const std::filesystem::path& file);
 
 /// Reads a whole file.
 ///
 /// \throw InputError  no such file, a folder, not a regular file, empty, or unreadable
-/// \throw LimitError  out of memory
+/// \throw MemoryError
 FileBytes read_whole_file(const std::filesystem::path& file);
 
 /// The extension of a file's name in lower case, with its dot.
@@ -90,7 +95,8 @@ class TextBuffer {
 };
 
 /// A file that appears completely or not at all: it is written under a temporary name in the same folder, and `commit`
-/// renames it. Without `commit` the destructor removes it.
+/// renames it. Without `commit` the destructor removes it, and so does a signal that ends the program, if it calls
+/// `remove_unfinished_files`.
 class OutputFile {
  public:
   /// \throw OutputError  the place is a folder, or cannot be written
@@ -124,6 +130,7 @@ class OutputFile {
   [[noreturn]] void fail(int error) const;
 
   std::filesystem::path target_, temporary_;
+  std::optional<UnfinishedFile> unfinished_;
   std::FILE* stream_ = nullptr;
   TextBuffer buffer_;
   bool committed_ = false;

@@ -5,6 +5,7 @@
 
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
 
@@ -101,6 +102,18 @@ const Format* format_of(const std::filesystem::path& file, const Format (&format
   return format == std::end(formats) ? nullptr : format;
 }
 
+/// The ending of the format whose keyword the file begins with; empty: the formats without one.
+std::string_view ending_shown_by(const FileBytes& file) {
+  TextScanner in(file);
+  const std::string_view first = in.peek();
+  if (first == "ply") return ".ply";
+  if (first == "OFF") return ".off";
+  if (first == "MeshVersionFormatted") return ".mesh";
+  if (!equal_ignoring_case(first, "solid")) return {};
+  in.skip_line();
+  return equal_ignoring_case(in.peek(), "facet") ? ".stl" : std::string_view();
+}
+
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& known_endings) {
   check_is_file(file);  // "no such file" is the better message
   throw InputError("unknown file extension '" + lower_ending(file) + "'", place_in(file.string()),
@@ -157,8 +170,14 @@ bool is_plc_file(const std::filesystem::path& file) {
 plc::InputPlc read_plc(const std::filesystem::path& file) {
   const PlcFormat* format = format_of(file, plc_formats);
   if (!format) fail_to_read(file, ".stl, .off, .obj, .ply, .poly, .smesh, .node, .mesh and .meshb");
-  plc::InputPlc plc = format->read(read_whole_file(file));
+  const FileBytes bytes = read_whole_file(file);
+  const std::string_view shown = ending_shown_by(bytes);
+  const PlcFormat* const contents = shown.empty() ? format : std::ranges::find(plc_formats, shown, &PlcFormat::ending);
+  plc::InputPlc plc = contents->read(bytes);
   plc.name = file.string();
+  if (contents != format)
+    plc.notes.push_back("the file is named '" + std::string(format->ending) + "' but contains " +
+                        std::string(contents->name) + ", and was read as such");
   return plc;
 }
 

@@ -5,6 +5,7 @@
 #include "engine/io/formats.h"
 #include "engine/io/read_lines.h"
 #include "engine/io/text_scanner.h"
+#include "engine/mesh/boundary_faces.h"
 
 namespace ccdt::io {
 
@@ -76,8 +77,9 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   }
   // Some programs leave out 'End'. The counts tell that the sections are whole; the line break, that the last number
   // is.
-  const bool is_whole_mesh = !mesh.tetrahedra.empty() && file.bytes.back() == line_end_of(file.bytes);
-  if (!ended && !is_whole_mesh) in.fail_truncated("keyword 'End'");
+  const bool has_elements = with_tetrahedra ? !mesh.tetrahedra.empty() : medit.has_facets();
+  if (!ended && !(has_elements && file.bytes.back() == line_end_of(file.bytes))) in.fail_truncated("keyword 'End'");
+  if (!ended) medit.notes.push_back("the keyword 'End' is missing; the file may have been cut off after a section");
   return medit;
 }
 
@@ -107,6 +109,7 @@ plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside) {
   const mesh::TetMesh& mesh = medit.mesh;
   plc::InputPlc plc;
   plc.inside = inside;
+  plc.notes = std::move(medit.notes);
   for (std::size_t i = 0; i < mesh.faces.size(); ++i)
     add_facet(plc, mesh.faces[i], mesh.face_markers[i], medit.first_triangle + i);
   for (std::size_t i = 0; i < medit.quadrilaterals.size(); ++i)
@@ -115,6 +118,17 @@ plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside) {
   plc.vertices = std::move(medit.mesh.vertices);
   finish_facets(plc);
   return plc;
+}
+
+plc::InputPlc boundary_of(MeditFile medit) {
+  const std::size_t tetrahedra = medit.mesh.tetrahedra.size();
+  if (tetrahedra > 0) {
+    medit.mesh.faces = mesh::boundary_faces(medit.mesh);
+    medit.mesh.face_markers.assign(medit.mesh.faces.size(), 0);
+    medit.notes.push_back("the file has tetrahedra and no triangles, so their boundary was used; tetrahedra: " +
+                          std::to_string(tetrahedra));
+  }
+  return plc_of(std::move(medit), plc::InputPlc::Inside::even_odd);
 }
 
 MeditFile medit_of(const plc::InputPlc& plc) {
@@ -136,7 +150,8 @@ MeditFile medit_of(const plc::InputPlc& plc) {
 }
 
 plc::InputPlc read_medit_plc(const FileBytes& file) {
-  return plc_of(read_medit(file, false), inside_claimed(file));
+  MeditFile surface = read_medit(file, false);
+  return surface.has_facets() ? plc_of(std::move(surface), inside_claimed(file)) : boundary_of(read_medit(file, true));
 }
 
 mesh::TetMesh read_medit_mesh(const FileBytes& file) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/mesh/tet_mesh.h"
@@ -16,10 +17,16 @@ struct MeditFile {
   std::vector<std::array<std::uint32_t, 4>> quadrilaterals;
   std::vector<int> quadrilateral_references;
   std::size_t first_triangle = 0, first_quadrilateral = 0;  ///< how many facets came before them in the file
+  std::vector<std::string> notes;                           ///< as in `plc::InputPlc`
+
+  bool has_facets() const { return !mesh.faces.empty() || !quadrilaterals.empty(); }
 };
 
 /// As a surface or PLC; `inside` is what the caller knows from the file's claim.
 plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside);
+
+/// The boundary of the tetrahedra of a file without facets, as a surface.
+plc::InputPlc boundary_of(MeditFile medit);
 
 /// Of a PLC whose facets are triangles and quadrilaterals.
 MeditFile medit_of(const plc::InputPlc& plc);

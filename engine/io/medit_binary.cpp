@@ -57,6 +57,7 @@ class MeditReader {
                  "the next one is said to be at byte " + std::to_string(next) + " of " + std::to_string(size_),
                  "the file is truncated or damaged: export it again");
       read_section(keyword, with_tetrahedra);
+      if (in_.position() > next) in_.fail("section", "it reaches into the next one", ByteScanner::damaged_remedy);
       in_.move_to(next);
     }
     return std::move(medit_);
@@ -262,8 +263,9 @@ bool ends_with_claim(const FileBytes& file, std::string_view claim) {
 
 plc::InputPlc read_meditb_plc(const FileBytes& file) {
   using Inside = plc::InputPlc::Inside;
-  return plc_of(MeditReader(file).read(false),
-                ends_with_claim(file, even_odd_claim) ? Inside::even_odd : Inside::seeds);
+  MeditFile surface = MeditReader(file).read(false);
+  if (!surface.has_facets()) return boundary_of(MeditReader(file).read(true));
+  return plc_of(std::move(surface), ends_with_claim(file, even_odd_claim) ? Inside::even_odd : Inside::seeds);
 }
 
 mesh::TetMesh read_meditb_mesh(const FileBytes& file) {

@@ -7,16 +7,19 @@ namespace ccdt::io {
 namespace {
 
 /// The keyword is [ST][C][N][4][n]OFF and may be missing. Texture coordinates, colors and normals follow the
-/// coordinates on a vertex's line and are skipped; four-dimensional, n-dimensional and binary files are refused.
+/// coordinates on a vertex's line and are skipped; four-dimensional, n-dimensional and binary files are refused. Some
+/// writers put the first count right behind it: "OFF8".
 void read_keyword(TextScanner& in) {
   const Item header{"header"};
   const std::string_view first = in.peek();
-  if (first.size() < 3 || !equal_ignoring_case(first.substr(first.size() - 3), "off")) {
-    if (!first.empty() && first[0] >= '0' && first[0] <= '9') return;
+  const std::string_view keyword = first.substr(0, first.find_last_not_of("0123456789") + 1);
+  if (keyword.size() < 3 || !equal_ignoring_case(keyword.substr(keyword.size() - 3), "off")) {
+    if (!first.empty() && keyword.empty()) return;
     in.expect(header, "OFF", "check that this is an OFF file");
   }
-  std::string_view prefix = in.word(header);
-  prefix.remove_suffix(3);
+  in.word(header);
+  in.move_to(in.position() - (first.size() - keyword.size()));
+  std::string_view prefix = keyword.substr(0, keyword.size() - 3);
   for (const std::string_view part : {"ST", "C", "N"})
     if (prefix.starts_with(part)) prefix.remove_prefix(part.size());
   if (!prefix.empty())

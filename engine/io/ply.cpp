@@ -48,10 +48,9 @@ struct Header {
   std::vector<Element> elements;
   std::size_t end = 0;  ///< of the header, where the data begin
 
-  std::size_t vertices() const {
-    for (const Element& element : elements)
-      if (element.name == "vertex") return element.count;
-    return 0;
+  const Element* find(std::string_view name) const {
+    const auto found = std::ranges::find(elements, name, &Element::name);
+    return found == elements.end() ? nullptr : &*found;
   }
 };
 
@@ -98,6 +97,7 @@ Header read_header(const FileBytes& file) {
       Element element;
       element.name = in.word(item);
       element.count = in.count("count of an element", 0);
+      if (header.find(element.name)) in.fail(item, "a second element " + in_quotes(element.name));
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
       if (header.elements.empty()) in.fail(item, "a property before the first element");
@@ -123,9 +123,6 @@ void check_counts(const FileBytes& file, const Header& header) {
       bytes +=
           header.encoding == Encoding::text ? 2 : (property.list_count ? property.list_count : property.type)->size;
     needed += element.count * bytes;
-    if (element.name == "tristrips" && element.count > 0)
-      fail_at_byte(file, 0, "facets in strips of triangles (element tristrips) are not supported",
-                   "export them as faces");
   }
   const std::size_t available = file.bytes.size() - header.end;
   if (needed > available + 1)
@@ -216,6 +213,13 @@ bool is_corner_list(const Property& property) {
   return property.list_count && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
+std::uint32_t corner_at(const Values& values, const Item& item, std::int64_t index, std::size_t vertices) {
+  if (index < 0 || static_cast<std::size_t>(index) >= vertices)
+    values.fail(item, "vertex index " + std::to_string(index) + " is out of range: the file has " +
+                          std::to_string(vertices) + " vertices, counted from 0");
+  return static_cast<std::uint32_t>(index);
+}
+
 void read_face(Values& values, const Element& element, const Item& facet, std::size_t vertices, plc::InputPlc& plc,
                std::vector<std::uint32_t>& corners) {
   int marker = 0;
@@ -224,13 +228,8 @@ void read_face(Values& values, const Element& element, const Item& facet, std::s
       corners.resize(list_length(values, property, facet));
       if (corners.size() < 3)
         values.fail(facet, "it has " + std::to_string(corners.size()) + " corners, but needs at least three");
-      for (std::uint32_t& corner : corners) {
-        const std::int64_t index = values.whole(*property.type, facet);
-        if (index < 0 || static_cast<std::size_t>(index) >= vertices)
-          values.fail(facet, "vertex index " + std::to_string(index) + " is out of range: the file has " +
-                                 std::to_string(vertices) + " vertices, counted from 0");
-        corner = static_cast<std::uint32_t>(index);
-      }
+      for (std::uint32_t& corner : corners)
+        corner = corner_at(values, facet, values.whole(*property.type, facet), vertices);
     } else if (property.name == "marker" && !property.list_count && !property.type->is_real) {
       const std::int64_t value = values.whole(*property.type, facet);
       if (value < INT_MIN || value > INT_MAX) values.fail(facet, "its marker does not fit 32 bits");
@@ -242,6 +241,32 @@ void read_face(Values& values, const Element& element, const Item& facet, std::s
   add_facet(plc, corners, marker, static_cast<std::size_t>(facet.number));
 }
 
+/// Strips of triangles, one after the other: each corner makes a triangle with the two before it, every second one
+/// turned. -1 begins a new strip.
+void read_strips(Values& values, const Element& element, const Item& item, std::size_t vertices, plc::InputPlc& plc) {
+  for (const Property& property : element.properties) {
+    if (!is_corner_list(property)) {
+      skip_property(values, property, item);
+      continue;
+    }
+    std::array<std::uint32_t, 2> last{};
+    std::size_t length = 0;  // of the strip so far
+    for (std::size_t left = list_length(values, property, item); left > 0; --left) {
+      const std::int64_t index = values.whole(*property.type, item);
+      if (index == -1) {
+        length = 0;
+        continue;
+      }
+      const std::uint32_t corner = corner_at(values, item, index, vertices);
+      if (++length > 2) {
+        const bool is_turned = length % 2 == 0;
+        add_facet(plc, std::array{last[is_turned ? 1 : 0], last[is_turned ? 0 : 1], corner}, 0, plc.facet_count());
+      }
+      last = {last[1], corner};
+    }
+  }
+}
+
 void check_properties(const FileBytes& file, const Element& element) {
   const auto has = [&](auto wanted) {
     return std::any_of(element.properties.begin(), element.properties.end(), wanted);
@@ -250,8 +275,8 @@ void check_properties(const FileBytes& file, const Element& element) {
     for (const char* axis : {"x", "y", "z"})
       if (!has([&](const Property& p) { return p.name == axis && !p.list_count; }))
         fail_at_byte(file, 0, std::string("vertices have no property '") + axis + "'", "export the file again");
-  if (element.name == "face" && !has(is_corner_list))
-    fail_at_byte(file, 0, "faces have no list 'vertex_indices' or 'vertex_index'", "export the file again");
+  if ((element.name == "face" || element.name == "tristrips") && !has(is_corner_list))
+    fail_at_byte(file, 0, element.name + " has no list 'vertex_indices' or 'vertex_index'", "export the file again");
 }
 
 }  // namespace
@@ -262,14 +287,19 @@ plc::InputPlc read_ply(const FileBytes& file) {
   plc::InputPlc plc;
   Values values(file, header);
   std::vector<std::uint32_t> corners;
+  const Element* const vertex = header.find("vertex");
+  const std::size_t vertices = vertex ? vertex->count : 0;
   for (const Element& element : header.elements) {
-    if (element.count == 0 || element.properties.empty()) continue;
+    if (element.count == 0) continue;
     check_properties(file, element);
+    if (element.properties.empty()) continue;
     for (std::size_t i = 0; i < element.count; ++i) {
       if (element.name == "vertex") {
         read_vertex(values, element, {"vertex", i}, plc);
       } else if (element.name == "face") {
-        read_face(values, element, {"facet", i}, header.vertices(), plc, corners);
+        read_face(values, element, {"facet", i}, vertices, plc, corners);
+      } else if (element.name == "tristrips") {
+        read_strips(values, element, {"strips", i}, vertices, plc);
       } else {
         for (const Property& property : element.properties) skip_property(values, property, {"element", i});
       }

@@ -24,11 +24,10 @@ std::size_t claimed_facets(const FileBytes& file) {
 /// Text begins with `solid` and has no control characters. A binary header may also begin with `solid`, but a count or
 /// a coordinate soon contains a byte that text does not have.
 bool looks_like_text(const FileBytes& file) {
-  std::string_view start = std::string_view(file.bytes).substr(0, 1024);
+  const std::string_view start = std::string_view(file.bytes).substr(0, 1024);
   for (const char c : start)
     if (static_cast<unsigned char>(c) < 32 && (c < '\t' || c > '\r')) return false;
-  start.remove_prefix(std::min(start.find_first_not_of(" \t\r\n"), start.size()));
-  return equal_ignoring_case(start.substr(0, 5), "solid");
+  return equal_ignoring_case(TextScanner(file, TextScanner::no_comments).peek(), "solid");
 }
 
 bool has_binary_size(const FileBytes& file) {
@@ -106,12 +105,35 @@ bool is_keyword(std::string_view word) {
 
 /// The next keyword after the end of a facet or of its loop. Some writers put names and comments there, up to the end
 /// of the line.
+///
+/// \return  empty at the end of the text; "endsolid" also for "end solid"
 std::string_view next_keyword(TextScanner& in, const Item& facet) {
-  while (true) {
+  while (!in.at_end()) {
     const std::string_view word = in.word(facet);
     if (is_keyword(word)) return word;
+    if (equal_ignoring_case(word, "end") && !in.at_line_end() && equal_ignoring_case(in.word(facet), "solid"))
+      return "endsolid";
     in.skip_line();
   }
+  return {};
+}
+
+/// Reads what follows the word "facet". \return  its corners
+std::array<Point3, 3> read_facet(TextScanner& in, const Item& facet) {
+  expect(in, facet, "normal");
+  for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and are not needed
+  expect(in, facet, "outer");
+  expect(in, facet, "loop");
+  std::array<Point3, 3> corners;
+  for (Point3& corner : corners) {
+    expect(in, facet, "vertex");
+    corner = in.point(facet);
+  }
+  expect(in, facet, "endloop");
+  const std::string_view end = next_keyword(in, facet);
+  if (end.empty()) in.fail_truncated(facet);
+  expect(in, facet, "endfacet", end);
+  return corners;
 }
 
 plc::InputPlc read_text(const FileBytes& file) {
@@ -125,18 +147,16 @@ plc::InputPlc read_text(const FileBytes& file) {
       const Item facet{"facet", plc.triangles.size()};
       const std::string_view keyword = next_keyword(in, facet);
       if (equal_ignoring_case(keyword, "endsolid")) break;
+      if (keyword.empty()) {
+        if (plc.triangles.empty()) in.fail_truncated(facet);
+        plc.notes.push_back("the file ends without 'endsolid'; it may have been cut off after a whole facet");
+        break;
+      }
       if (!equal_ignoring_case(keyword, "facet"))
         in.fail(facet, "expected 'facet' or 'endsolid', found " + in_quotes(keyword));
-      expect(in, facet, "normal");
-      for (int k = 0; k < 3; ++k) in.word(facet);  // normals may be NaN, and are not needed
-      expect(in, facet, "outer");
-      expect(in, facet, "loop");
-      for (std::uint32_t& corner : plc.triangles.emplace_back()) {
-        expect(in, facet, "vertex");
-        corner = merger.index_of(as_array(in.point(facet)));
-      }
-      expect(in, facet, "endloop");
-      expect(in, facet, "endfacet", next_keyword(in, facet));
+      const std::array<Point3, 3> corners = read_facet(in, facet);
+      std::ranges::transform(corners, plc.triangles.emplace_back().begin(),
+                             [&](const Point3& p) { return merger.index_of(as_array(p)); });
     }
     in.skip_line();
   }

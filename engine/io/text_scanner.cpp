@@ -12,6 +12,15 @@ namespace ccdt::io {
 
 namespace {
 
+/// Editors on Windows begin a text in UTF-8 with this mark.
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// The byte where the words of a text begin.
+std::size_t begin_of_words(std::string_view text, std::size_t begin) {
+  if (begin == 0 && text.starts_with(byte_order_mark)) return byte_order_mark.size();
+  return std::min(begin, text.size());
+}
+
 bool is_space(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
@@ -62,7 +71,7 @@ bool equal_ignoring_case(std::string_view a, std::string_view lower) {
 TextScanner::TextScanner(const FileBytes& file, int comment, std::size_t begin, std::size_t end)
     : file_(file),
       text_(file.bytes),
-      position_(std::min(begin, file.bytes.size())),
+      position_(begin_of_words(text_, begin)),
       end_(std::min(end, file.bytes.size())),
       word_begin_(position_),
       comment_(comment),

@@ -126,8 +126,8 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const 
   // A smaller tolerance gives smaller facets; it does not make polygons invalid.
   const double tolerance = tolerance_of(plc, std::max(options.flatness, PlcOptions{}.flatness));
   triangulate_polygons(input, plc, tolerance, triangles, segments);
-  if (drop_triangles_without_area(plc.vertices, triangles) > 0 && triangles.size() == 0)
-    throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
+  drop_triangles_without_area(plc.vertices, triangles);
+  if (triangles.size() == 0) throw_input_error(plc, "no facet has an area", "give a surface that encloses something");
   report(progress, stage, 1, steps_of_build);
   return gathered;
 }
@@ -152,6 +152,7 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
   plc.segments = collect_segments(plc.vertices, parts, map);
   collect_facets(triangles, patches, map, plc);
   plc.regions = std::move(map.regions);
+  plc.idle_holes = std::move(map.idle_holes);
   report(progress, stage, steps_of_build, steps_of_build);
   return plc;
 }

@@ -219,18 +219,17 @@ RegionId region_at(const RegionMap& map, const VerticalRays& rays, const Integer
   return hits.empty() ? RegionId(0u) : map.of(hits.front().triangle, hits.front().enters_above);
 }
 
+constexpr const char* seed_remedy = "move the seed into the part of space that it is for, or remove it";
+
+// \return  0: outside of everything that the facets enclose
 RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
                         const Point3& seed, const std::string& name) {
-  const std::string remedy = "move the seed into the part of space that it is for, or remove it";
-  const std::string outside = name + " is outside everything that the facets enclose";
   // Seeds beyond the box of the vertices may not fit the grid.
-  if (!contains(bounding_box(plc.world), box_of(seed))) throw_input_error(plc, outside, remedy, {seed});
+  if (!contains(bounding_box(plc.world), box_of(seed))) return RegionId(0u);
   const IntegerPoint start = six_times(plc.grid.snap(seed));
   if (const auto t = rays.triangle_at(start))
-    throw_input_error(plc, name + " is on a facet", remedy, {seed}, {triangles.numbers[*t]});
-  const RegionId region = region_at(map, rays, start);
-  if (region == 0u) throw_input_error(plc, outside, remedy, {seed});
-  return region;
+    throw_input_error(plc, name + " is on a facet", seed_remedy, {seed}, {triangles.numbers[*t]});
+  return region_at(map, rays, start);
 }
 
 bool has_free_edge(const EdgeTable& edges) {
@@ -259,12 +258,19 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
     for (std::uint32_t c = 1; c < map.regions.size(); ++c) map.regions[c].inside = true;
   for (std::size_t i = 0; i < input.holes.size(); ++i) {
     const std::string name = "hole seed " + std::to_string(i) + " (counted from 0)";
-    map.regions[region_of_seed(plc, triangles, rays, map, input.holes[i], name)].inside = false;
+    const RegionId region = region_of_seed(plc, triangles, rays, map, input.holes[i], name);
+    if (region == 0u)
+      map.idle_holes.push_back(input.holes[i]);
+    else
+      map.regions[region].inside = false;
   }
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     const std::string name = "region seed " + std::to_string(i) + " (counted from 0)";
-    map.regions[region_of_seed(plc, triangles, rays, map, input.regions[i].seed, name)].attribute =
-        input.regions[i].attribute;
+    const RegionId region = region_of_seed(plc, triangles, rays, map, input.regions[i].seed, name);
+    if (region == 0u)
+      throw_input_error(plc, name + " is outside everything that the facets enclose", seed_remedy,
+                        {input.regions[i].seed});
+    map.regions[region].attribute = input.regions[i].attribute;
   }
   if (std::none_of(map.regions.begin(), map.regions.end(), [](const Region& c) { return c.inside; }))
     throw_input_error(plc, "the hole seeds leave nothing to mesh", "remove the hole seed of the part to be meshed");

@@ -29,6 +29,7 @@ struct RegionMap {
   /// For each region except 0, the region that contains the connected facets enclosing it.
   std::vector<RegionId> around;
   std::vector<RegionId> of_loose;  ///< of each of `PlcParts::match.loose`: where the middle of the segment is
+  std::vector<Point3> idle_holes;  ///< see `Plc`
 
   RegionId of(std::uint32_t triangle, bool above) const { return of_side[side_of(triangle, above)]; }
 };
@@ -38,7 +39,8 @@ struct RegionMap {
 /// is inside, as the input's kind says, and gives the regions the attributes of their seeds.
 ///
 /// \param tree  over the boxes of the triangles; made if it is missing and would be used often
-/// \throw InputError  a seed of a hole or region is outside or on a facet; or nothing is enclosed, or nothing is left
+/// \throw InputError  a seed of a region is outside, or a seed is on a facet; or nothing is enclosed, or nothing is
+/// left
 ///                    by the holes
 RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::optional<BoxTree>& tree);
 

@@ -57,6 +57,8 @@ struct InputPlc {
   };
   Bent bent;
 
+  std::vector<std::string> notes;  ///< what is unusual in the file but was understood; one sentence each
+
   std::size_t facet_count() const { return triangles.size() + polygon_facets.size(); }
 };
 

@@ -59,7 +59,8 @@ struct Plc {
   std::vector<std::uint32_t> faces;  ///< by triangle: what it is in a simplicial complex that has all vertices, such as
                                      ///< their Delaunay tetrahedralization; or `no_face`
   std::vector<Region> regions;
-  double largest_rounding = 0;  ///< largest change of a coordinate by the grid, in the units of the input
+  std::vector<Point3> idle_holes;  ///< seeds of holes where nothing is enclosed anyway, in the units of the input
+  double largest_rounding = 0;     ///< largest change of a coordinate by the grid, in the units of the input
 
   /// Any triangulation of a facet, with all of its vertices, consistently oriented.
   std::span<const std::array<VertexId, 3>> triangles_of(const Facet& facet) const {

@@ -65,6 +65,13 @@ Place place_of(const Plc& plc, std::span<const VertexId> vertices, std::vector<l
   return place_at(points, std::move(facets));
 }
 
+void find_unusual_file(const InputPlc& input, Diagnosis& diagnosis) {
+  if (input.notes.empty()) return;
+  Fault fault{.kind = FaultKind::unusual_file, .count = input.notes.size()};
+  for (const std::string& note : input.notes) fault.detail += (fault.detail.empty() ? "" : "; ") + note;
+  diagnosis.faults.push_back(std::move(fault));
+}
+
 bool find_coordinates(const InputPlc& input, Diagnosis& diagnosis) {
   const auto is_finite = [](const Point3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
   const auto first = std::ranges::find_if_not(input.vertices, is_finite);
@@ -210,6 +217,9 @@ void examine_domain(const InputPlc& input, const plc::UncheckedPlc& soup, const 
                     Diagnosis& diagnosis) {
   try {
     const Plc plc = assemble_plc(input, soup, options);
+    FaultList idle_holes(FaultKind::idle_holes, false);
+    for (const Point3& seed : plc.idle_holes) idle_holes.add([&] { return place_at({&seed, 1}); });
+    std::move(idle_holes).add_to(diagnosis);
     diagnosis.regions = static_cast<std::uint64_t>(std::ranges::count(plc.regions, true, &plc::Region::inside));
     const std::vector<plc::VertexTriple> outward = outward_triangles(plc);
     double sixfold = 0;
@@ -232,6 +242,7 @@ Diagnosis describe(const InputPlc& input) {
 Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& progress) {
   const plc::PlcOptions options{flatness, {}};
   Diagnosis diagnosis = describe(input);
+  find_unusual_file(input, diagnosis);
   report(progress, check_stage, 0, check_steps);
   if (find_coordinates(input, diagnosis)) return diagnosis;
   Soup soup;

@@ -51,7 +51,7 @@ TEST(ReadStl, ErrorsHaveTheirPlace) {
   expect_refused("a.stl", with_nan, {{}, {}, 162, 1});
   const std::string facet =
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
-  expect_refused("a.stl", "solid\n" + facet, {{}, 9});
+  expect_refused("a.stl", "solid\n" + facet + "facet normal\n", {{}, 10, {}, 1});
   expect_refused("a.stl", "solid\n" + facet + "facet normal 0 0 1\nouter loop\nvertex 0 inf 0\n", {"'inf'", 11, {}, 1});
   expect_refused("a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n", {"'zero'", 4, {}, 0});
   expect_refused("a.stl", "solid\nfacett normal 0 0 1\nouter loop\n", {"'facet'", 3, {}, 0});
@@ -117,7 +117,7 @@ TEST(ReadOff, ErrorsHaveTheirPlace) {
   expect_refused("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0x\n0 1 0\n", {"'0x'", 4});
   expect_refused("a.off", "4OFF\n3 1 0\n", {"'4'", 1});
   expect_refused("a.off", "OFF BINARY\n3 1 0\n", {{}, 1});
-  expect_refused("a.off", "ply\n", {"'OFF'", 1});
+  expect_refused("a.off", "other\n", {"'OFF'", 1});
 }
 
 TEST(ReadObj, FormsOfCornersNegativeIndicesAndJoinedLines) {

@@ -92,7 +92,7 @@ TEST(ReadMedit, AWholeMeshMayLeaveOutEnd) {
 TEST(ReadMedit, ErrorsHaveTheirPlace) {
   expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 5 0\nEnd\n", {"5", 12, {}, 0});
   expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 0 0\nEnd\n", {"0", 12, {}, 0});
-  expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 3 0\n", {"'End'", 13});
+  expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 3 0", {"'End'", 12});
   expect_refused("a.mesh", medit_head + "Triangles 700000000\n1 2 3 0\n", {"700000000", 11});
   expect_refused("a.mesh", medit_head + "Triangles 1\n1 2 3 0\n3 2 1 0\nEnd\n", {"'3'", 13});
   expect_refused("a.mesh", "MeshVersionFormatted 1\nDimension 2\n", {"2", 2});

@@ -208,7 +208,7 @@ TEST(PlcRegions, TheEdgesOfASlitThatAreNotOnTheSurfaceAreGrazeable) {
   }
 }
 
-TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRejected) {
+TEST(PlcRegions, SeedsOnAFacetAndThoseOfRegionsOutsideAreRejected) {
   for (const Point3& seed : {Point3{5, 0.5, 0.5}, Point3{0.5, 0.5, -1e300}, Point3{0.5, 0.25, 1}, Point3{0, 0.5, 0.5},
                              Point3{0, 0, 0}, Point3{0.5, 0, 0}}) {
     plc::InputPlc input = unit_cube();
@@ -217,12 +217,23 @@ TEST(PlcRegions, SeedsOutsideOrOnAFacetAreRejected) {
     EXPECT_THROW(plc::build_plc(input), InputError);
     input.regions.clear();
     input.holes = {seed};
-    EXPECT_THROW(plc::build_plc(input), InputError);
+    const bool is_outside = seed.x == 5 || seed.z == -1e300;
+    if (is_outside)
+      EXPECT_EQ(plc::build_plc(input).idle_holes.size(), 1u);
+    else
+      EXPECT_THROW(plc::build_plc(input), InputError);
   }
-  // Within the box of all vertices, but outside the solid.
-  plc::InputPlc input = l_shape();
+}
+
+TEST(PlcRegions, AHoleSeedOutsideTheSolidIsIdle) {
+  plc::InputPlc input = l_shape();  // the seed is within the box of its vertices
   input.inside = Inside::seeds;
   input.holes = {{1.5, 1.5, 0.5}};
+  const plc::Plc plc = plc::build_plc(input);
+  EXPECT_EQ(plc.idle_holes, input.holes);
+  EXPECT_TRUE(plc.regions.at(1).inside);
+  input.regions = {{input.holes[0], 1, 0}};
+  input.holes.clear();
   EXPECT_THROW(plc::build_plc(input), InputError);
 }
 

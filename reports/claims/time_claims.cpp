@@ -46,6 +46,15 @@ const std::string linear_words = "within " + rounded(experiments::linear_within,
 
 using TestOfExponent = BoundTest (*)(const bench::Estimate&);
 
+/// Why no fit of this quantity is judged: "piston: 2.1 decades; 3 are needed". Empty if there is none.
+std::string why_not_judged(Results results, const char* table, const std::string& strategy,
+                           const std::string& quantity) {
+  std::vector<std::string> reasons;
+  for (const ClaimRow& row : rows_of(results, "fig8", table, {{"strategy", strategy}, {"quantity", quantity}}))
+    reasons.push_back(row.text("model") + ": " + row.text("why_not"));
+  return reasons.empty() ? "" : " (" + joined(reasons) + ")";
+}
+
 /// Adds the exponents of fits that may be judged; a missing measure if there is none.
 void add_exponents(Results results, const char* table, const std::string& strategy, const std::string& quantity,
                    const std::string& bound, TestOfExponent strong, TestOfExponent weak, PaperClaim& claim) {
@@ -59,7 +68,9 @@ void add_exponents(Results results, const char* table, const std::string& strate
     claim.measured.push_back(measure_of(row, row.text("model") + ": " + what + "; better: " + row.text("better"),
                                         *exponent, bound, strong(*exponent), weak(*exponent)));
   }
-  if (!is_judged) claim.measured.push_back(missing_measure(what, bound, "fig8", table));
+  if (!is_judged)
+    claim.measured.push_back(
+        missing_measure(what + why_not_judged(results, table, strategy, quantity), bound, "fig8", table));
 }
 
 BoundTest is_nearly_linear(const bench::Estimate& exponent) {

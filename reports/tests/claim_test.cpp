@@ -95,14 +95,15 @@ results::ExperimentResult fig8(const std::vector<MadeUpFit>& others,
   const std::vector<results::Column> columns = {
       {"model", "model", results::ColumnKind::label},        {"strategy", "strategy", results::ColumnKind::label},
       {"quantity", "of", results::ColumnKind::label},        {"exponent", "exponent", results::ColumnKind::time},
-      {"better", "n or n log n", results::ColumnKind::note}, {"judged", "judged", results::ColumnKind::label}};
+      {"better", "n or n log n", results::ColumnKind::note}, {"judged", "judged", results::ColumnKind::label},
+      {"why_not", "why not", results::ColumnKind::note}};
   results::ResultTable work{"work", "Work", columns}, fits{"fits", "Fits", columns};
   const auto add = [&](const std::string& strategy, const std::string& quantity, results::ResultTable& table) {
     MadeUpFit fit{strategy, quantity, exponent};
     for (const MadeUpFit& other : others)
       if (other.strategy == strategy && other.quantity == quantity) fit = other;
     table.rows.push_back({{std::string("bracket"), strategy, quantity, fit.exponent, std::string("n"),
-                           std::string(fit.is_judged ? "yes" : "no")},
+                           std::string(fit.is_judged ? "yes" : "no"), std::string(fit.is_judged ? "" : "too short")},
                           {}});
   };
   for (const char* strategy : {"paper, with check", "paper, without check"}) {
