@@ -65,6 +65,14 @@ ReportSection read_section(const std::filesystem::path& folder, const experiment
   return section;
 }
 
+/// Why there are files of experiments that cannot be used; empty if there are none.
+std::string unusable_files(const std::filesystem::path& folder, const Report& report) {
+  std::string text;
+  for (const ReportSection& section : report.sections)
+    if (std::filesystem::exists(folder / (section.result.name + ".json"))) text += "\n  " + section.reason;
+  return text;
+}
+
 /// Up to this many runs, a page contains the whole records.
 constexpr std::size_t most_raw_runs = 3000;
 
@@ -184,7 +192,8 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
   const bool has_sweep = std::filesystem::exists(folder / sweep_results::sweep_file);
   if (std::ranges::all_of(report.sections, &ReportSection::is_missing)) {
     if (!has_sweep)
-      throw InputError("this folder contains neither an experiment nor a sweep", {.file = folder.string()},
+      throw InputError("this folder contains neither an experiment nor a sweep" + unusable_files(folder, report),
+                       {.file = folder.string()},
                        "fill one with `ccdt reproduce -o DIR` or `ccdt sweep SPEC.json -o DIR`");
     report.sections.clear();
   }
