@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include "engine/delaunay/insertion.h"
 #include "engine/tests/delaunay_checks.h"
@@ -199,6 +200,19 @@ TEST(Insertion, FillsCavitiesOfManyVerticesBeyondTheHull) {
     insertion.fill_cavity();
     EXPECT_TRUE(is_consistent(d)) << n;
     EXPECT_TRUE(has_empty_spheres(d)) << n;
+  }
+}
+
+TEST(InsertPoints, GivesIdsAndRanksThatFollowTheExistingOnes) {
+  for (const NamedPoints& set : tiny_sets()) {
+    if (set.points.size() < 16) continue;
+    const std::size_t half = set.points.size() / 2;
+    const std::span<const Point3> points = set.points;
+    delaunay::Delaunay d = delaunay::build_delaunay(points.first(half));
+    delaunay::insert_points(d, points.subspan(half));
+    for (std::uint32_t v = static_cast<std::uint32_t>(half); v < d.vertices.size(); ++v) EXPECT_EQ(d.vertices[v].rank, v);
+    EXPECT_TRUE(is_consistent(d)) << set.name;
+    EXPECT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << set.name;
   }
 }
 
