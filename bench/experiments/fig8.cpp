@@ -15,17 +15,18 @@
 namespace ccdt::experiments {
 namespace {
 
-/// The sizes of a model: from the coarsest that has the density of its edge length, to a number of tetrahedra, in the
-/// wanted number. With the check, each model covers the three decades that a fit of work needs; without it, which takes
-/// ten times as long, only the one with the fewest vertices.
+/// The sizes of a model: from a coarse one to a number of tetrahedra, in the wanted number. With the check, each model
+/// covers the three decades that a fit of work needs; without it, which takes ten times as long, only the one with the
+/// fewest vertices.
 struct SizeRange {
   std::string_view model;
   double coarsest;  ///< edge length, mm
   double most, most_without_check;
 };
 constexpr std::array<SizeRange, 3> ranges = {
-    {{"piston", 8, 80, 10}, {"bracket", 7.5, 40, 40}, {"stepping-pole", 6, 70, 12}}};
-constexpr double small_scale = 50000, most_at_small_scales = 1.5;  ///< where minutes are wanted, not verdicts
+    {{"piston", 14, 50, 5}, {"bracket", 7.5, 40, 40}, {"stepping-pole", 6, 70, 12}}};
+/// Where minutes are wanted, not verdicts.
+constexpr double small_scale = 50000, most_at_small_scales = 1.5, coarsest_at_small_scales = 8;
 
 /// A way to mesh, and its largest mesh of a model, in the wanted number of tetrahedra.
 struct Strategy {
@@ -241,9 +242,11 @@ struct ModelSize {
 
 std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperModel& model, const SizeRange& range) {
   const double finest = std::ranges::find(models::solids(), model.name, &models::Solid::name)->finest;
-  const double most = options.tetrahedra < small_scale ? most_at_small_scales : range.most;
+  const bool is_small = options.tetrahedra < small_scale;
+  const double most = is_small ? most_at_small_scales : range.most,
+               coarsest = is_small ? std::min(coarsest_at_small_scales, range.coarsest) : range.coarsest;
   std::vector<ModelSize> sizes;
-  for (double edge_length = range.coarsest; edge_length >= finest; edge_length /= std::cbrt(step)) {
+  for (double edge_length = coarsest; edge_length >= finest; edge_length /= std::cbrt(step)) {
     const double tetrahedra = std::pow(edge_factor(options) * model.edge_length / edge_length, 3);
     if (tetrahedra > most) break;
     const std::string file = "fig8-" + std::string(model.name) + "-" + std::to_string(sizes.size()) + ".poly";

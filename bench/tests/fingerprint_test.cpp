@@ -76,6 +76,23 @@ TEST(Fingerprint, ChangesWithEveryPartOfTheMesh) {
   }
 }
 
+TEST(Fingerprint, ChangesWithEveryPartOfALargeMesh) {
+  TetMesh mesh;
+  constexpr std::uint32_t tetrahedra = 40000;
+  for (std::uint32_t i = 0; i < tetrahedra + 3; ++i) mesh.vertices.push_back({1.0 * i, 0.0, 0.0});
+  for (std::uint32_t i = 0; i < tetrahedra; ++i) mesh.tetrahedra.push_back({i, i + 1, i + 2, i + 3});
+  mesh.regions.assign(tetrahedra, 1);
+  std::set<std::string> seen = {bench::fingerprint(mesh)};
+  for (std::size_t i = 0; i < tetrahedra; i += 3000) {
+    TetMesh changed = mesh;
+    changed.regions[i] = 2;
+    EXPECT_TRUE(seen.insert(bench::fingerprint(changed)).second) << "tetrahedron " << i;
+    changed = mesh;
+    changed.vertices[i].y = 1;
+    EXPECT_TRUE(seen.insert(bench::fingerprint(changed)).second) << "vertex " << i;
+  }
+}
+
 TEST(Fingerprint, TakesNegativeZeroForZero) {
   TetMesh mesh = shapes::cube_mesh();
   const std::string before = bench::fingerprint(mesh);

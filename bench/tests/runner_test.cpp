@@ -9,7 +9,9 @@
 #include <set>
 
 #include "baselines/external_program.h"
+#include "bench/cases/run_case.h"
 #include "bench/json.h"
+#include "bench/median_interval.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::cases {
@@ -80,9 +82,10 @@ TEST_F(RunnerTest, RunsACaseAsOftenAsItAsks) {
   const MeasuredCase measured = runner().run(case_of("a", "1\n2\n3\n4\n", three_after_one));
   EXPECT_EQ(measured.runs, 4);
   EXPECT_EQ(samples_of(measured, &StageSeconds::mesh), (std::vector<double>{2, 3, 4}));
+  EXPECT_EQ(measured.first.seconds.mesh, 1);
   EXPECT_EQ(run_files(measured),
             (std::vector<std::string>{run_file(measured.id, 1), run_file(measured.id, 2), run_file(measured.id, 3)}));
-  for (const std::string& name : run_files(measured)) EXPECT_TRUE(std::filesystem::exists(folder_.path() / name));
+  for (int number = 0; number < 4; ++number) EXPECT_EQ(bench::read_run_record(file(measured, number)).number, number);
   EXPECT_EQ(records(), 4);
   EXPECT_TRUE(std::filesystem::is_empty(folder_.path() / "scratch"));
 }
@@ -126,7 +129,31 @@ TEST_F(RunnerTest, EndsTheRepetitionsOfAFailure) {
   const MeasuredCase measured = runner().run(case_of("a", "1\n1\nno\n1\n", three_after_one));
   EXPECT_TRUE(measured.failed());
   EXPECT_EQ(run_files(measured), std::vector{run_file(measured.id, 2)});
+  EXPECT_EQ(measured.counted.size(), 1) << "neither the warm-up nor the failure";
   EXPECT_EQ(calls().size(), 3);
+}
+
+TEST_F(RunnerTest, NeitherKeepsNorVerifiesTheMeshOfAFailure) {
+  Case asked = case_of("a", "no\n");
+  asked.mesh_ending = ".vtu";
+  asked.verify = true;
+  const MeasuredCase measured = runner().run(asked);
+  EXPECT_TRUE(measured.failed());
+  EXPECT_FALSE(exists(folder_.path() / mesh_file(measured)));
+  EXPECT_EQ(calls().size(), 1);
+}
+
+TEST_F(RunnerTest, AsksForOneThreadUnlessACaseSaysHowMany) {
+  Case asked = case_of("a", "1\n");
+  const auto threads = [&] {
+    const std::vector<std::string> words = mesh_arguments(folder_.path(), asked, "mesh.vtu", "report.json");
+    const auto found = std::ranges::find(words, "--threads");
+    EXPECT_EQ(std::ranges::count(words, "--threads"), 1);
+    return found == words.end() ? "" : *std::next(found);
+  };
+  EXPECT_EQ(threads(), "1");
+  asked.options = {"--threads", "3"};
+  EXPECT_EQ(threads(), "3");
 }
 
 TEST_F(RunnerTest, RecordsACrash) {
@@ -164,6 +191,28 @@ TEST_F(RunnerTest, TakesTurnsWithinAGroup) {
   EXPECT_GT(orders.size(), 1) << "the order should not be the same in every round";
 }
 
+TEST_F(RunnerTest, LetsThoseWithFewerRunsCatchUp) {
+  const Case first = case_of("a", "1\n", {.at_least = 2, .at_most = 2});
+  runner().run(first);
+  constexpr Repetitions four = {.at_least = 4, .at_most = 4};
+  runner().run(std::vector{case_of("a", "1\n", four), case_of("b", "2\n", four)});
+  const std::vector<std::string> order = calls();
+  ASSERT_EQ(order.size(), 8);
+  EXPECT_EQ(std::vector(order.begin() + 2, order.begin() + 4), (std::vector<std::string>{"b", "b"}));
+}
+
+TEST_F(RunnerTest, TheOrderDependsOnTheSeed) {
+  const std::vector all = {case_of("a", "1\n"), case_of("b", "2\n"), case_of("c", "3\n")};
+  std::set<std::vector<std::string>> orders;
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    std::filesystem::remove_all(folder_.path() / "runs");
+    std::filesystem::remove(folder_.path() / "calls");
+    runner({.seed = seed}).run(all);
+    orders.insert(calls());
+  }
+  EXPECT_GT(orders.size(), 2);
+}
+
 TEST_F(RunnerTest, RunsEqualCasesOnce) {
   const std::vector<MeasuredCase> measured = runner().run(std::vector{case_of("a", "1\n"), case_of("b", "1\n")});
   EXPECT_EQ(measured[0].id, measured[1].id);
@@ -194,6 +243,16 @@ TEST_F(RunnerTest, SpendsNoMoreThanTheBudgetOnMoreThanTheLeastNumberOfRuns) {
   const std::vector<MeasuredCase> measured = runner().run(all);
   EXPECT_EQ(measured[0].counted.size(), 18) << "54 runs would take 81 s";
   EXPECT_EQ(measured[1].counted.size(), 6);
+}
+
+TEST(RunsLeft, AreNoneAsSoonAsTheIntervalIsAsNarrowAsAskedFor) {
+  Repetitions repetitions = {.at_least = 6, .at_most = 60, .until = 1};
+  const std::vector<double> samples = {1, 1.1, 1.2, 1.3, 1.4, 1.5};
+  const double spread = bench::relative_spread(bench::median_estimate(samples, looks_of(repetitions)));
+  for (const double share : {0.6, 0.99, 1.01}) {
+    repetitions.until = share * spread;
+    EXPECT_EQ(are_enough(repetitions, samples, 1), share > 1) << share;
+  }
 }
 
 TEST(RunsLeft, AreThoseUntilTheNextLookAndTheLast) {
@@ -337,6 +396,27 @@ TEST_F(RunnerTest, MixedRecordsOfAnotherBinaryCount) {
   EXPECT_EQ(calls().size(), 1);
   runner({.identities = {now}}).run(asked);
   EXPECT_EQ(calls().size(), 2);
+}
+
+TEST_F(RunnerTest, MixedRecordsCountOnlyIfTheyAreAllThere) {
+  const Identity then = {{"ccdt.binary", "then"}}, now = {{"ccdt.binary", "now"}};
+  runner({.identities = {then}}).run(case_of("a", "1\n"));
+  const Case more = case_of("a", "1\n", {.at_least = 3, .at_most = 3});
+  const MeasuredCase measured = runner({.identities = {now, then}}).run(more);
+  EXPECT_EQ(calls().size(), 1 + 3);
+  FileHashes hashes;
+  EXPECT_EQ(measured.id, id_of(more, now, hashes));
+}
+
+TEST_F(RunnerTest, MixedRecordsOfThisBinaryComeFirst) {
+  const Identity then = {{"ccdt.binary", "then"}}, now = {{"ccdt.binary", "now"}};
+  const Case more = case_of("a", "1\n", {.at_least = 3, .at_most = 3});
+  runner({.identities = {then}}).run(more);
+  runner({.identities = {now}}).run(case_of("a", "1\n"));
+  const MeasuredCase measured = runner({.identities = {now, then}}).run(more);
+  EXPECT_EQ(calls().size(), 3 + 1 + 2);
+  FileHashes hashes;
+  EXPECT_EQ(measured.id, id_of(more, now, hashes));
 }
 
 }  // namespace

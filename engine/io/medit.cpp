@@ -48,7 +48,7 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   TextScanner in(file);
   in.expect("header", "MeshVersionFormatted", "check that this is a Medit text file");
   in.integer("MeshVersionFormatted");
-  bool ended = false;
+  bool ended = false, skips_tetrahedra = false;
   while (!ended && !in.at_end()) {
     const std::string_view keyword = in.word("keyword");
     const std::size_t vertices = mesh.vertices.size();
@@ -70,6 +70,7 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
     } else if (keyword == "End") {
       ended = true;
     } else if (starts_with_letter(keyword)) {
+      skips_tetrahedra = skips_tetrahedra || keyword == "Tetrahedra";
       while (!in.at_end() && !starts_with_letter(in.peek())) in.word("section");
     } else {
       in.fail("keyword", "expected a keyword, found " + in_quotes(keyword));
@@ -77,7 +78,7 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   }
   // Some programs leave out 'End'. The counts tell that the sections are whole; the line break, that the last number
   // is.
-  const bool has_elements = with_tetrahedra ? !mesh.tetrahedra.empty() : medit.has_facets();
+  const bool has_elements = with_tetrahedra ? !mesh.tetrahedra.empty() : medit.has_facets() || skips_tetrahedra;
   if (!ended && !(has_elements && file.bytes.back() == line_end_of(file.bytes))) in.fail_truncated("keyword 'End'");
   if (!ended) medit.notes.push_back("the keyword 'End' is missing; the file may have been cut off after a section");
   return medit;

@@ -43,6 +43,11 @@ struct Element {
   std::vector<Property> properties;
 };
 
+/// The others are skipped.
+bool is_read(const Element& element) {
+  return element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+}
+
 struct Header {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
@@ -97,7 +102,7 @@ Header read_header(const FileBytes& file) {
       Element element;
       element.name = in.word(item);
       element.count = in.count("count of an element", 0);
-      if (header.find(element.name)) in.fail(item, "a second element " + in_quotes(element.name));
+      if (is_read(element) && header.find(element.name)) in.fail(item, "a second element " + in_quotes(element.name));
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
       if (header.elements.empty()) in.fail(item, "a property before the first element");

@@ -210,6 +210,15 @@ void find_inward_facets(const Plc& plc, const std::vector<plc::VertexTriple>& ou
   std::move(list).add_to(diagnosis);
 }
 
+/// The volume that triangles enclose which face outward. Far from the origin, products of coordinates would cancel.
+double volume_within(const Plc& plc, const std::vector<plc::VertexTriple>& outward) {
+  double sixfold = 0;
+  const Point3 origin = plc.world.front();
+  for (const auto& [a, b, c] : outward)
+    sixfold += dot(plc.world[a] - origin, cross(plc.world[b] - origin, plc.world[c] - origin));
+  return sixfold / 6;
+}
+
 /// What only the finished PLC shows. An error that it has left, as that of a seed, is a fault of the domain.
 ///
 /// \param soup  without other errors
@@ -222,9 +231,7 @@ void examine_domain(const InputPlc& input, const plc::UncheckedPlc& soup, const 
     std::move(idle_holes).add_to(diagnosis);
     diagnosis.regions = static_cast<std::uint64_t>(std::ranges::count(plc.regions, true, &plc::Region::inside));
     const std::vector<plc::VertexTriple> outward = outward_triangles(plc);
-    double sixfold = 0;
-    for (const auto& [a, b, c] : outward) sixfold += dot(plc.world[a], cross(plc.world[b], plc.world[c]));
-    diagnosis.volume = sixfold / 6;
+    diagnosis.volume = volume_within(plc, outward);
     if (input.inside == InputPlc::Inside::even_odd) find_inward_facets(plc, outward, soup.triangles, diagnosis);
   } catch (const InputError& error) {
     const Place place{.points = error.place().points, .facets = error.place().facets};

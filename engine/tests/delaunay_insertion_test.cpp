@@ -210,7 +210,8 @@ TEST(InsertPoints, GivesIdsAndRanksThatFollowTheExistingOnes) {
     const std::span<const Point3> points = set.points;
     delaunay::Delaunay d = delaunay::build_delaunay(points.first(half));
     delaunay::insert_points(d, points.subspan(half));
-    for (std::uint32_t v = static_cast<std::uint32_t>(half); v < d.vertices.size(); ++v) EXPECT_EQ(d.vertices[v].rank, v);
+    for (std::uint32_t v = static_cast<std::uint32_t>(half); v < d.vertices.size(); ++v)
+      EXPECT_EQ(d.vertices[v].rank, v);
     EXPECT_TRUE(is_consistent(d)) << set.name;
     EXPECT_EQ(sorted_cells(d), cells_by_definition(d.vertices)) << set.name;
   }

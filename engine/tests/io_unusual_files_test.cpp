@@ -55,6 +55,14 @@ TEST(UnusualFiles, MeditWithoutEndIsReadWithANote) {
   EXPECT_EQ(plc.notes.size(), 1u);
 }
 
+TEST(UnusualFiles, MeditOfTetrahedraAloneMayLackItsEndToo) {
+  const plc::InputPlc plc = plc_of("a.mesh",
+                                   "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"
+                                   "0 0 1 0\nTetrahedra 1\n1 2 3 4 0\n");
+  EXPECT_EQ(plc.triangles.size(), 4u);
+  EXPECT_EQ(plc.notes.size(), 2u);
+}
+
 TEST(UnusualFiles, TheCountOfAnOffMayFollowItsKeywordAtOnce) {
   const std::string rest = " 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const std::string head : {"OFF3", "COFF3", "off3"})

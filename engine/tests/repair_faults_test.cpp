@@ -49,6 +49,12 @@ TEST(Faults, ACubeHasNone) {
   EXPECT_DOUBLE_EQ(diagnosis.volume, 1);
 }
 
+TEST(Faults, TheVolumeIsThatOfAnEqualPartAtTheOrigin) {
+  plc::InputPlc input = unit_cube();
+  for (Point3& p : input.vertices) p = p + Point3{441871, 6329700, -1200};
+  EXPECT_DOUBLE_EQ(repair::find_faults(input).volume, 1);
+}
+
 TEST(Faults, CoordinatesThatAreNotFinite) {
   plc::InputPlc input = unit_cube();
   input.vertices[3].y = std::numeric_limits<double>::quiet_NaN();
