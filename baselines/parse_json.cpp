@@ -7,8 +7,6 @@
 namespace ccdt::baselines {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 void check_nesting(std::string_view text) {
   int depth = 0;
   bool is_quoted = false;
@@ -25,22 +23,22 @@ void check_nesting(std::string_view text) {
     if (c == '[' || c == '{') ++depth;
     if (c == ']' || c == '}') --depth;
     if (depth > most_nested)
-      throw Json::parse_error::create(101, i + 1, "nested deeper than " + std::to_string(most_nested) + " levels",
-                                      nullptr);
+      throw nlohmann::ordered_json::parse_error::create(
+          101, i + 1, "nested deeper than " + std::to_string(most_nested) + " levels", nullptr);
   }
 }
 
 }  // namespace
 
-Json parse_json(std::string_view text) {
+nlohmann::ordered_json parse_json(std::string_view text) {
   check_nesting(text);
-  return Json::parse(text);
+  return nlohmann::ordered_json::parse(text);
 }
 
-std::optional<Json> try_parse_json(std::string_view text) {
+std::optional<nlohmann::ordered_json> try_parse_json(std::string_view text) {
   try {
     return parse_json(text);
-  } catch (const Json::parse_error&) {
+  } catch (const nlohmann::ordered_json::parse_error&) {
     return std::nullopt;
   }
 }

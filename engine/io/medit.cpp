@@ -79,7 +79,8 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   // Some programs leave out 'End'. The counts tell that the sections are whole; the line break, that the last number
   // is.
   const bool has_elements = with_tetrahedra ? !mesh.tetrahedra.empty() : medit.has_facets() || skips_tetrahedra;
-  if (!ended && !(has_elements && file.bytes.back() == line_end_of(file.bytes))) in.fail_truncated("keyword 'End'");
+  const bool is_whole = has_elements && file.bytes.back() == line_end_of(file.bytes);
+  if (!ended && !is_whole) in.fail_truncated("keyword 'End'");
   if (!ended) medit.notes.push_back("the keyword 'End' is missing; the file may have been cut off after a section");
   return medit;
 }
