@@ -127,8 +127,18 @@ TEST(Faults, CrossingSegments) {
 TEST(Faults, SeedsOutside) {
   plc::InputPlc input = unit_cube();
   input.inside = plc::InputPlc::Inside::seeds;
-  input.holes = {{5, 5, 5}};
+  input.regions = {{{5, 5, 5}, 1, 0}};
   EXPECT_EQ(only_error(input, FaultKind::domain), 1u);
+  input.regions.clear();
+  input.holes = {{5, 5, 5}};
+  EXPECT_EQ(noted(input, FaultKind::idle_holes), 1u);
+}
+
+TEST(Faults, NotesOnTheFile) {
+  plc::InputPlc input = unit_cube();
+  input.notes = {"one", "two"};
+  EXPECT_EQ(noted(input, FaultKind::unusual_file), 2u);
+  EXPECT_EQ(find(repair::find_faults(input), FaultKind::unusual_file)->detail, "one; two");
 }
 
 TEST(Faults, ADanglingFacetOfAPlcIsNotOne) {
