@@ -44,7 +44,8 @@ TEST(UnusualFiles, StlWithoutEndsolidIsReadWithANote) {
     EXPECT_TRUE(plc_of("a.stl", "solid x\n" + facet + end).notes.empty()) << end;
   EXPECT_EQ(plc_of("a.stl", "solid x\n" + facet + "end solid\nsolid y\n" + facet + "end solid\n").triangles.size(), 2u);
   // What ends within a facet, or before the first one, was cut off.
-  for (const std::string part : {"", "facet normal 0 0 1\n", facet.substr(0, facet.find("endfacet")).c_str()})
+  for (const std::string& part :
+       std::vector<std::string>{"", "facet normal 0 0 1\n", facet.substr(0, facet.find("endfacet"))})
     expect_refused("a.stl", "solid x\n" + part, {});
 }
 
