@@ -33,7 +33,7 @@ TEST(UnusualFiles, AByteOrderMarkBeginsAnyText) {
     EXPECT_EQ(plc_of(name, mark + text).triangles, one_triangle);
     EXPECT_TRUE(plc_of(name, mark + text).notes.empty());
   }
-  expect_refused("a.off", mark + "OFF 1 0 0\n0 0 zero\n", {"'zero'", 2});
+  io_test::expect_refused("a.off", mark + "OFF 1 0 0\n0 0 zero\n", {"'zero'", 2});
 }
 
 TEST(UnusualFiles, StlWithoutEndsolidIsReadWithANote) {
@@ -46,7 +46,7 @@ TEST(UnusualFiles, StlWithoutEndsolidIsReadWithANote) {
   // What ends within a facet, or before the first one, was cut off.
   for (const std::string& part :
        std::vector<std::string>{"", "facet normal 0 0 1\n", facet.substr(0, facet.find("endfacet"))})
-    expect_refused("a.stl", "solid x\n" + part, {});
+    io_test::expect_refused("a.stl", "solid x\n" + part, {});
 }
 
 TEST(UnusualFiles, MeditWithoutEndIsReadWithANote) {
@@ -68,7 +68,7 @@ TEST(UnusualFiles, TheCountOfAnOffMayFollowItsKeywordAtOnce) {
   const std::string rest = " 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const std::string head : {"OFF3", "COFF3", "off3"})
     EXPECT_EQ(plc_of("a.off", head + rest).triangles, one_triangle) << head;
-  for (const std::string head : {"4OFF3", "OFFX3"}) expect_refused("a.off", head + rest, {{}, 1});
+  for (const std::string head : {"4OFF3", "OFFX3"}) io_test::expect_refused("a.off", head + rest, {{}, 1});
 }
 
 TEST(UnusualFiles, TheKeywordTellsTheFormatIfTheEndingIsWrong) {
@@ -92,8 +92,8 @@ TEST(UnusualFiles, StripsOfTrianglesInPly) {
             (Triangles{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 2}}))
       << "every second triangle of a strip is turned, and -1 begins a new strip";
   EXPECT_TRUE(plc_of("a.ply", head + "4 0 1 -1 3\n").triangles.empty());
-  expect_refused("a.ply", head + "3 0 1 5\n", {"5"});
-  expect_refused("a.ply", head + "3 0 1 -2\n", {"-2"});
+  io_test::expect_refused("a.ply", head + "3 0 1 5\n", {"5"});
+  io_test::expect_refused("a.ply", head + "3 0 1 -2\n", {"-2"});
 }
 
 TEST(UnusualFiles, TheBoundaryOfTetrahedraAloneIsASurface) {
@@ -118,12 +118,12 @@ TEST(UnusualFiles, TheBoundaryOfTetrahedraAloneIsASurface) {
 
 TEST(MalformedFiles, PlyElementsMustBeWhatTheyClaim) {
   const std::string faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
-  expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n" + faces + "3 0 1 2\n", {"'x'"});
-  expect_refused("a.ply",
-                 "ply\nformat ascii 1.0\nelement vertex 4000000\nelement vertex 4\nproperty float x\n"
-                 "property float y\nproperty float z\n" +
-                     faces,
-                 {"'vertex'", 4});
+  io_test::expect_refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 4\n" + faces + "3 0 1 2\n", {"'x'"});
+  io_test::expect_refused("a.ply",
+                          "ply\nformat ascii 1.0\nelement vertex 4000000\nelement vertex 4\nproperty float x\n"
+                          "property float y\nproperty float z\n" +
+                              faces,
+                          {"'vertex'", 4});
 }
 
 /// A .meshb with this many sections of vertices, each of which claims everything up to the end of the file.
@@ -143,7 +143,7 @@ std::string overlapping_sections(int sections) {
 }
 
 TEST(MalformedFiles, MeditSectionsDoNotOverlap) {
-  expect_refused("a.meshb", overlapping_sections(100), {});
+  io_test::expect_refused("a.meshb", overlapping_sections(100), {});
 }
 
 }  // namespace
