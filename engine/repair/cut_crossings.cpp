@@ -25,7 +25,7 @@ using plc::TrianglePair;
 using plc::TriangleSet;
 
 constexpr std::string_view stage = "cut crossings";
-constexpr std::size_t most_rounds = 16;  // general positions need one, welds mostly up to eight
+constexpr std::size_t most_rounds_of_cuts = 16;  // general positions need one, welds mostly up to eight
 
 /// More of them are none that anybody meant: cuts along accidental intersections make ever more.
 std::size_t most_triangles(std::size_t given, std::size_t pairs) {
@@ -136,14 +136,14 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
   WeldSearch search(options);
   const std::size_t given = soup.triangles.size();
   for (;; ++counts.rounds) {
-    report(progress, stage, counts.rounds, most_rounds);
+    report(progress, stage, counts.rounds, most_rounds_of_cuts);
     const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be meant
     const std::vector<TrianglePair> close = clean(soup.plc.vertices, soup.triangles, fins);
     const Cuts found = find_cuts(soup.plc.vertices, soup.triangles, close);
     counts.left = found.pairs;
     if (counts.rounds == 0) counts.pairs = found.pairs;
     if (counts.pairs == 0 && !options.weld_everywhere) break;
-    if (counts.rounds == most_rounds || soup.triangles.size() > most_triangles(given, counts.pairs)) break;
+    if (counts.rounds == most_rounds_of_cuts || soup.triangles.size() > most_triangles(given, counts.pairs)) break;
     const Welds welds = search.find(found.cuts, soup);
     if (found.pairs == 0 && welds.empty()) break;
     plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
@@ -158,7 +158,7 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
     if (found.pairs == 0) break;  // what is near to each other is welded as far as that is possible
     counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
   }
-  report(progress, stage, most_rounds, most_rounds);
+  report(progress, stage, most_rounds_of_cuts, most_rounds_of_cuts);
   return counts;
 }
 
