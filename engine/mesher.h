@@ -29,7 +29,6 @@ using improve::ImproveCounts;
 using improve::Improvement;
 using improve::ImproveOptions;
 using improve::ImproveStop;
-using improve::Objective;
 using improve::SteinerRule;
 using lattice::BackgroundSizes;
 using lattice::Lattice;
@@ -38,6 +37,7 @@ using mesh::TetMesh;
 using plc::InputPlc;
 using plc::PolygonFacet;
 using protection::Protection;
+using tets::Objective;
 
 /// The strategies of the engine and their parameters.
 struct MeshOptions {

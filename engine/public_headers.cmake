@@ -26,6 +26,7 @@ set(public_headers
   repair/find_faults.h
   repair/repair_input.h
   surface/remesh_surface.h
+  tets/objective.h
 )
 
 # Both in the project and installed: #include <ccdt/ccdt.h> for everything, or "engine/mesher.h" for a part.

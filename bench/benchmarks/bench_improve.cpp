@@ -24,11 +24,11 @@
 #include <vector>
 
 #include "bench/benchmarks/benchmark_main.h"
-#include "engine/improve/cell_complex.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/numbers/predicates.h"
+#include "engine/tets/cell_complex.h"
 
 namespace ccdt::benchmarks {
 namespace {
@@ -74,12 +74,12 @@ improve::ImproveCounts improve(const Stages& s, improve::Improvement improvement
 
 /// The quality of the worst cell; not positive if a cell is not.
 double least_quality(const Unimproved& u) {
-  const improve::QualityGoal goal = improve::goal_of({});
+  const tets::QualityGoal goal = improve::goal_of({});
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
     const auto& at = u.points;
     if (numbers::orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
-    least = std::min(least, improve::cell_quality(goal, at[a], at[b], at[c], at[d]));
+    least = std::min(least, tets::cell_quality(goal, at[a], at[b], at[c], at[d]));
   }
   return least;
 }

@@ -55,7 +55,7 @@ struct Work {
   std::uint64_t visibility_tests = 0;  ///< faces of the input that were tested because they may hide a candidate
   std::uint64_t piercing_tests = 0;    ///< cells that were tested because a missing face may cut them
 
-  // ---- Improvement (engine/improve)
+  // ---- Improvement (engine/tets, engine/steiner, engine/improve)
   std::uint64_t changes_tried = 0;   ///< plans to remove an edge or a face, to collapse an edge, to insert a vertex
   std::uint64_t moves_tried = 0;     ///< vertices for which a better place was searched; in the remesher too
   std::uint64_t vertices_moved = 0;  ///< of those, the ones that were moved

@@ -8,6 +8,8 @@
 
 namespace ccdt::improve {
 
+using tets::no_neighbor;
+
 std::array<std::uint32_t, 8> vertices_near(const CellComplex& x, std::uint32_t cell) {
   const Cell& here = x.cell(cell);
   std::array<std::uint32_t, 8> all;
@@ -59,23 +61,10 @@ void StepFinder::find_any(std::uint32_t cell, bool has_moved, Effort effort, Ste
 }
 
 bool StepFinder::find_swap(std::uint32_t cell, Step& step) {
-  double least = x_.quality(cell);
-  step.count = nullptr;
-  const auto consider = [&](bool is_better, std::uint64_t ImproveCounts::*count) {
-    if (!is_better) return;
-    least = worst_of(plan_.new_cells);
-    step.count = count;
-    std::swap(plan_, step.change);
-  };
-  for (std::uint32_t edge = 0; edge < 6; ++edge) {
-    const bool is_planned = plan_edge_removal(x_, cell, edge, least, plan_);
-    step.space_taken = hull(step.space_taken, plan_.space_taken);
-    consider(is_planned, &ImproveCounts::removed_edges);
-  }
-  for (std::uint32_t face = 0; face < 4; ++face)
-    consider(plan_face_removal(x_, cell, face, least, plan_), &ImproveCounts::removed_faces);
-  if (step.count == nullptr || !x_.all_positive(step.change)) return false;
+  const tets::Swap swap = tets::plan_best_swap(x_, cell, plan_, step.change, step.space_taken);
+  if (swap == tets::Swap::none) return false;
   step.kind = Step::Kind::change;
+  step.count = swap == tets::Swap::edge_removal ? &ImproveCounts::removed_edges : &ImproveCounts::removed_faces;
   return true;
 }
 

@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "engine/improve/counts.h"
+#include "engine/improve/insert_and_collapse.h"
+#include "engine/improve/options.h"
 #include "engine/improve/plan_reconnection.h"
-#include "engine/improve/topological_changes.h"
+#include "engine/tets/swaps.h"
 
 namespace ccdt::improve {
+
+using tets::Cavity;
 
 /// The effort for a cell.
 enum class Effort { usual, greatest };

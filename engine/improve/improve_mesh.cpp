@@ -12,14 +12,22 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/portable_math.h"
 #include "engine/base/sort_in_runs.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/find_step.h"
-#include "engine/improve/remove_steiner_vertices.h"
-#include "engine/improve/shake_cells.h"
 #include "engine/mesh/assemble_mesh.h"
+#include "engine/steiner/remove_steiner_vertices.h"
+#include "engine/tets/shake_cells.h"
 
 namespace ccdt::improve {
+
+using tets::FaceChange;
+
+QualityGoal goal_of(const ImproveOptions& options) {
+  return {options.objective, 1 / options.target_r, portable::sine(to_radians(options.target_dihedral))};
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -377,7 +385,7 @@ class Improver {
   const ImproveOptions& options_;
   const Improvement improvement_;
   const Clock::time_point begin_;
-  CellShaker shaker_;
+  tets::CellShaker shaker_;
   ImproveCounts counts_;
   std::vector<BadCell> queue_, found_;  ///< of this pass, the worst first; of the next pass
   std::size_t next_ = 0;                ///< of the queue
@@ -415,7 +423,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   std::uint64_t removed = 0;
   if (options.steiner == SteinerRule::remove) {
     const auto first_steiner = static_cast<std::uint32_t>(input.first_steiner);
-    removed = remove_steiner_vertices(input.plc, first_steiner, complex, input.chains, progress);
+    removed = steiner::remove_steiner_vertices(input.plc, first_steiner, complex, input.chains, progress);
     if (removed > 0) mesh::list_edges(input.plc, input.chains, mesh);
   }
   std::vector<Freedom> freedom;

@@ -8,11 +8,15 @@
 #include "engine/base/progress.h"
 #include "engine/base/raw_vector.h"
 #include "engine/improve/counts.h"
+#include "engine/improve/options.h"
 #include "engine/improve/smoothing.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
 
 namespace ccdt::improve {
+
+/// The goals of the options, as numbers to compare with.
+QualityGoal goal_of(const ImproveOptions& options);
 
 /// Improves the cells that are not good enough, the worst first: by swaps, by moving vertices, and where both are stuck
 /// by inserting and removing interior vertices. The worst of the new cells is always better than the worst of the
@@ -27,7 +31,7 @@ ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& fr
 struct ImproveInput {
   const plc::Plc& plc;
   protection::SegmentChains& chains;         ///< lose the Steiner vertices that are removed
-  LargeVector<Cell> cells;                   ///< the mesh's tetrahedra; neighbors may be missing
+  LargeVector<tets::Cell> cells;             ///< the mesh's tetrahedra; neighbors may be missing
   std::vector<std::uint32_t> facet_of_face;  ///< of each of the mesh's faces
   std::size_t first_steiner;                 ///< the least Steiner vertex
   std::size_t first_interior;                ///< the least interior vertex

@@ -4,8 +4,11 @@
 #include <optional>
 
 #include "engine/base/enum_names.h"
+#include "engine/tets/objective.h"
 
 namespace ccdt::improve {
+
+using tets::Objective;
 
 /// What improvement may do.
 enum class Improvement {
@@ -23,18 +26,6 @@ constexpr auto names_of(Improvement) {
        {Improvement::smooth, "smooth", "other positions of the same vertices"},
        {Improvement::swap_smooth, "swap-smooth", "both, as in the paper"},
        {Improvement::none, "none", "the mesh as it is"}});
-}
-
-/// The quality measure to improve; its worst value counts.
-enum class Objective {
-  r,        ///< the paper's measure of shape (section 5); where that is good, the dihedral angles
-  dihedral  ///< the least sine of the dihedral angles, so that small and large ones count alike
-};
-
-constexpr auto names_of(Objective) {
-  return std::to_array<NamedValue<Objective>>(
-      {{Objective::r, "r", "the paper's measure of shape, and where that is good the dihedral angles"},
-       {Objective::dihedral, "dihedral", "the dihedral angles alone"}});
 }
 
 /// What happens to the vertices on the boundary and on interior facets.

@@ -6,6 +6,9 @@
 #include "engine/base/simplex_map.h"
 
 namespace ccdt::improve {
+
+using tets::cell_of, tets::corners_of_face, tets::face_code, tets::no_neighbor;
+
 namespace {
 
 /// The numbers of vertices at which new cells are searched for.

@@ -5,10 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/improve/cell_complex.h"
-#include "engine/improve/fill_polyhedron.h"
+#include "engine/tets/cell_complex.h"
+#include "engine/tets/fill_polyhedron.h"
 
 namespace ccdt::improve {
+
+using tets::CellComplex, tets::CellMarks, tets::Change, tets::PolyhedronFiller;
 
 /// Replaces the cells of a polyhedron around a bad cell by better ones with the same vertices: all at the same time,
 /// where no swap makes anything better (J. Liu, B. Chen, S. Sun: Small polyhedron reconnection for mesh improvement and

@@ -357,7 +357,7 @@ bool all_positive(std::span<const StarFace> faces, const Point3& apex) {
 
 std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
   return static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), [&](const StarFace& f) {
-    return cell_quality(goal, f.a, f.b, f.c, apex) < goal_quality(goal);
+    return tets::cell_quality(goal, f.a, f.b, f.c, apex) < goal_quality(goal);
   }));
 }
 
@@ -405,41 +405,15 @@ Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, doubl
 
 }  // namespace
 
-void gather_cells(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, std::vector<std::uint32_t>& cells) {
-  cells.clear();
-  marks.clear(x.cell_count());
-  const std::uint32_t first = x.cell_at(vertex);
-  marks.mark(first);
-  cells.push_back(first);
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const Cell& cell = x.cell(cells[i]);
-    for (std::uint32_t f = 0; f < 4; ++f) {
-      const std::uint32_t next = cell.neighbors[f];
-      if (cell.vertices[f] == vertex || next == no_neighbor || marks.is_marked(cell_of(next))) continue;
-      marks.mark(cell_of(next));
-      cells.push_back(cell_of(next));
-    }
-  }
-}
-
-void gather_star(const CellComplex& x, std::uint32_t vertex, CellMarks& marks, VertexStar& star) {
-  gather_cells(x, vertex, marks, star.cells);
-  star.faces.clear();
-  for (const std::uint32_t c : star.cells) {
-    const auto [a, b, d] = corners_of_face(x.cell(c).vertices, x.place(c, vertex));
-    star.faces.push_back({x.point(a), x.point(b), x.point(d)});
-  }
-}
-
 double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
   work_done.quality_evaluations += faces.size();
   double least = 1;
   if (goal.objective == Objective::r) {
-    for (const StarFace& f : faces) least = std::min(least, inverse_r(f.a, f.b, f.c, apex));
+    for (const StarFace& f : faces) least = std::min(least, tets::inverse_r(f.a, f.b, f.c, apex));
     if (least < goal.inverse_r) return least;
   }
   least = 1;
-  for (const StarFace& f : faces) least = std::min(least, least_sine(f.a, f.b, f.c, apex));
+  for (const StarFace& f : faces) least = std::min(least, tets::least_sine(f.a, f.b, f.c, apex));
   return goal.objective == Objective::r ? 1 + least : least;
 }
 

@@ -5,26 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/improve/cell_complex.h"
+#include "engine/tets/vertex_star.h"
 
 namespace ccdt::improve {
 
-/// A face as seen from the apex of a star: the tetrahedron a b c apex is positive.
-struct StarFace {
-  Point3 a, b, c;
-};
-
-/// The cells around a vertex, and the opposite faces as seen from it.
-struct VertexStar {
-  std::vector<std::uint32_t> cells;
-  std::vector<StarFace> faces;  ///< of each cell
-};
-
-/// All cells that are connected around the vertex; walls do not separate them.
-void gather_cells(const CellComplex& complex, std::uint32_t vertex, CellMarks& marks,
-                  std::vector<std::uint32_t>& cells);
-
-void gather_star(const CellComplex& complex, std::uint32_t vertex, CellMarks& marks, VertexStar& star);
+using tets::CellComplex, tets::CellMarks, tets::Objective, tets::QualityGoal, tets::StarFace, tets::VertexStar;
 
 /// Where a vertex may move: to any point with integer coordinates, or to those exactly on its facet or segment.
 struct Freedom {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "engine/improve/cell_complex.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/face_to_face.h"
@@ -16,6 +15,7 @@
 #include "engine/tests/front_stages.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "engine/tets/cell_complex.h"
 
 // The neighbors that cells keep from the Delaunay tetrahedralization are those that faces have by their corners.
 
@@ -42,11 +42,10 @@ std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& fro
   const auto facet_of_face = mesh::finish_mesh(s.plc, s.chains, points, s.facets, collected);
   const auto joined = mesh::join_tetrahedra(collected.mesh, collected.sources, s.delaunay.cells);
   const auto complex_of = [&](LargeVector<delaunay::Cell> cells) {
-    return improve::CellComplex(collected.mesh.faces, collected.mesh.edges, std::move(cells), collected.mesh.regions,
-                                points, facet_of_face, static_cast<std::uint32_t>(points.size()), {});
+    return tets::CellComplex(collected.mesh.faces, collected.mesh.edges, std::move(cells), collected.mesh.regions,
+                             points, facet_of_face, static_cast<std::uint32_t>(points.size()), {});
   };
-  const improve::CellComplex kept = complex_of(joined),
-                             found = complex_of(improve_test::unjoined_cells(collected.mesh));
+  const tets::CellComplex kept = complex_of(joined), found = complex_of(improve_test::unjoined_cells(collected.mesh));
   improve_test::expect_consistent(kept);
   for (std::uint32_t c = 0; c < joined.size(); ++c) {
     EXPECT_EQ(kept.cell(c).vertices, collected.mesh.tetrahedra[c]) << "cell " << c;

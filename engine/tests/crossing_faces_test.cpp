@@ -1,4 +1,4 @@
-#include "engine/improve/crossing_faces.h"
+#include "engine/tets/crossing_faces.h"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +8,16 @@
 #include <random>
 #include <vector>
 
-#include "engine/improve/shake_cells.h"
 #include "engine/plc/find_overlaps.h"
 #include "engine/tests/improve_checks.h"
+#include "engine/tets/shake_cells.h"
 
 namespace ccdt {
 namespace {
 
 using namespace improve_test;
 
-const improve::QualityGoal any_positive{improve::Objective::r, 1, 1};
+const tets::QualityGoal any_positive{tets::Objective::r, 1, 1};
 
 /// Two tetrahedra below a valley between the vertices 0 and 2. With the other diagonal, from 1 to 3, the faces would be
 /// a ridge at the height 20, 20 above the valley.
@@ -41,9 +41,9 @@ void add(const std::array<Point3, 4>& corners, Model& model) {
 
 /// Can the edge from 0 to 2 be flipped?
 bool can_flip(const Model& model) {
-  const improve::CellComplex x = complex_of(model, any_positive);
-  improve::Change change;
-  return improve::plan_edge_removal(x, 0, edge_of_cell(x, 0, 0, 2), 0, change);
+  const tets::CellComplex x = complex_of(model, any_positive);
+  tets::Change change;
+  return tets::plan_edge_removal(x, 0, edge_of_cell(x, 0, 0, 2), 0, change);
 }
 
 TEST(CrossingFaces, TakeOnlySpaceThatIsFree) {
@@ -120,7 +120,7 @@ class Plates {
 };
 
 /// Do two faces meet in more than their common corners and edges?
-bool meet(const improve::CellComplex& x, Triangle s, Triangle t) {
+bool meet(const tets::CellComplex& x, Triangle s, Triangle t) {
   const auto is_common = [](const Triangle& other) {
     return [&other](std::uint32_t v) { return std::ranges::find(other, v) != other.end(); };
   };
@@ -137,12 +137,12 @@ TEST(CrossingFaces, AreNotMadeByRandomChanges) {
   std::mt19937 random(4);
   std::size_t flipped = 0;
   for (int i = 0; i < 20; ++i) {
-    improve::CellComplex x = complex_of(Plates(random).model, any_positive);
+    tets::CellComplex x = complex_of(Plates(random).model, any_positive);
     const std::vector<Triangle> before = x.faces();
     for (std::size_t f = 0; f < before.size(); ++f)
       for (std::size_t g = 0; g < f; ++g) ASSERT_FALSE(meet(x, before[f], before[g])) << f << " " << g;
     std::vector<std::uint32_t> made;
-    improve::CellShaker shaker(x);
+    tets::CellShaker shaker(x);
     for (std::uint32_t v = 0; v < x.vertex_count(); ++v) shaker.shake(v, 20, 0, made);
     expect_consistent(x);
     for (std::size_t f = 0; f < before.size(); ++f) {

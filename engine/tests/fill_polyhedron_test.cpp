@@ -1,4 +1,4 @@
-#include "engine/improve/fill_polyhedron.h"
+#include "engine/tets/fill_polyhedron.h"
 
 #include <gtest/gtest.h>
 
@@ -31,15 +31,15 @@ Model model_of(const plc::InputPlc& input) {
 }
 
 /// The faces of the cells opposite to the last vertex, the inside above.
-std::vector<Triangle> hull_of(const improve::CellComplex& x) {
+std::vector<Triangle> hull_of(const tets::CellComplex& x) {
   std::vector<Triangle> hull;
   const auto center = static_cast<std::uint32_t>(x.vertex_count() - 1);
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    hull.push_back(improve::corners_of_face(x.cell(c).vertices, x.place(c, center)));
+    hull.push_back(tets::corners_of_face(x.cell(c).vertices, x.place(c, center)));
   return hull;
 }
 
-Integer sixfold_volume(const improve::CellComplex& x, const Tetrahedron& t) {
+Integer sixfold_volume(const tets::CellComplex& x, const Tetrahedron& t) {
   std::array<std::array<Integer, 3>, 3> m;
   const Point3& a = x.point(t[0]);
   for (int i = 0; i < 3; ++i) {
@@ -52,21 +52,21 @@ Integer sixfold_volume(const improve::CellComplex& x, const Tetrahedron& t) {
 
 /// Fills the polyhedron without its last vertex. \return was it filled?
 bool fills(const Model& model) {
-  const improve::CellComplex x = complex_of(model, {improve::Objective::r, 1, 1});
-  improve::PolyhedronFiller filler(x);
-  std::vector<improve::NewCell> cells;
+  const tets::CellComplex x = complex_of(model, {tets::Objective::r, 1, 1});
+  tets::PolyhedronFiller filler(x);
+  std::vector<tets::NewCell> cells;
   const bool is_filled = filler.fill(hull_of(x), 7, 0, cells);
   EXPECT_EQ(is_filled, !cells.empty());
   if (!is_filled) return false;
   Integer before = 0, after = 0;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c) before += sixfold_volume(x, x.cell(c).vertices);
   std::map<FaceKey, int> counts;
-  for (const improve::NewCell& cell : cells) {
+  for (const tets::NewCell& cell : cells) {
     EXPECT_GT(sixfold_volume(x, cell.vertices), 0);
     EXPECT_EQ(cell.region, 7);
     after += sixfold_volume(x, cell.vertices);
     for (std::uint32_t f = 0; f < 4; ++f) {
-      const auto [a, b, c] = improve::corners_of_face(cell.vertices, f);
+      const auto [a, b, c] = tets::corners_of_face(cell.vertices, f);
       ++counts[face_key(a, b, c)];
     }
   }
@@ -89,27 +89,27 @@ Model octahedron() {
   return model;
 }
 
-bool has_all(const improve::NewCell& cell, std::initializer_list<std::uint32_t> vertices) {
+bool has_all(const tets::NewCell& cell, std::initializer_list<std::uint32_t> vertices) {
   return std::ranges::all_of(
       vertices, [&](std::uint32_t v) { return std::ranges::find(cell.vertices, v) != cell.vertices.end(); });
 }
 
 TEST(PolyhedronFiller, JoinsAllFacesToTheVertexWithTheBestTetrahedra) {
-  const improve::CellComplex x = complex_of(octahedron(), {improve::Objective::r, 1, 1});
-  improve::PolyhedronFiller filler(x);
-  std::vector<improve::NewCell> cells;
+  const tets::CellComplex x = complex_of(octahedron(), {tets::Objective::r, 1, 1});
+  tets::PolyhedronFiller filler(x);
+  std::vector<tets::NewCell> cells;
   ASSERT_TRUE(filler.fill(hull_of(x), 7, 0, cells));
   ASSERT_EQ(cells.size(), 4u);
-  for (const improve::NewCell& cell : cells) EXPECT_TRUE(has_all(cell, {0, 1}));
+  for (const tets::NewCell& cell : cells) EXPECT_TRUE(has_all(cell, {0, 1}));
 }
 
 TEST(PolyhedronFiller, KeepsAFacetThatEndsInside) {
-  const improve::CellComplex x = complex_of(octahedron(), {improve::Objective::r, 1, 1});
+  const tets::CellComplex x = complex_of(octahedron(), {tets::Objective::r, 1, 1});
   std::vector<Triangle> hull = hull_of(x);
   hull.push_back({0, 2, 6});
   hull.push_back({0, 6, 2});
-  improve::PolyhedronFiller filler(x);
-  std::vector<improve::NewCell> cells;
+  tets::PolyhedronFiller filler(x);
+  std::vector<tets::NewCell> cells;
   ASSERT_TRUE(filler.fill(hull, 7, 0, cells));
   EXPECT_EQ(std::ranges::count_if(cells, [](const auto& cell) { return has_all(cell, {0, 2, 6}); }), 2);
 }
@@ -154,7 +154,7 @@ TEST(PolyhedronFiller, FillsMostRandomStars) {
 }
 
 /// The quality of the best tetrahedron on a face, for the face where that is least.
-double best_on_worst_face(const improve::CellComplex& x) {
+double best_on_worst_face(const tets::CellComplex& x) {
   double least = 1;
   for (const auto& [a, b, c] : hull_of(x)) {
     double best = 0;
@@ -169,9 +169,9 @@ double best_on_worst_face(const improve::CellComplex& x) {
 TEST(PolyhedronFiller, DoesNotTakeARoundingForAnImprovement) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
-    const improve::CellComplex x = complex_of(random_star(random), {improve::Objective::r, 1, 1});
-    improve::PolyhedronFiller filler(x);
-    std::vector<improve::NewCell> cells;
+    const tets::CellComplex x = complex_of(random_star(random), {tets::Objective::r, 1, 1});
+    tets::PolyhedronFiller filler(x);
+    std::vector<tets::NewCell> cells;
     EXPECT_FALSE(filler.fill(hull_of(x), 7, best_on_worst_face(x), cells));
   }
 }

@@ -126,7 +126,7 @@ void visit_cases(const Visit& visit) {
     const Cube cube = cube_of(3, jitter, ++seed);
     for (const improve::Improvement improvement :
          {improve::Improvement::swap, improve::Improvement::smooth, improve::Improvement::all})
-      for (const improve::Objective objective : {improve::Objective::r, improve::Objective::dihedral})
+      for (const tets::Objective objective : {tets::Objective::r, tets::Objective::dihedral})
         for (const improve::BoundaryRule boundary : {improve::BoundaryRule::keep, improve::BoundaryRule::slide}) {
           SCOPED_TRACE("jitter " + std::to_string(jitter) + ", improvement " +
                        std::to_string(static_cast<int>(improvement)) + ", objective " +
@@ -137,18 +137,18 @@ void visit_cases(const Visit& visit) {
   }
 }
 
-std::vector<std::uint32_t> bad_cells(const improve::CellComplex& x, const improve::QualityGoal& goal) {
+std::vector<std::uint32_t> bad_cells(const tets::CellComplex& x, const tets::QualityGoal& goal) {
   std::vector<std::uint32_t> bad;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    if (!x.is_dead(c) && x.quality(c) < improve::goal_quality(goal)) bad.push_back(c);
+    if (!x.is_dead(c) && x.quality(c) < tets::goal_quality(goal)) bad.push_back(c);
   return bad;
 }
 
 TEST(Improving, FillsTheSameSpaceExactlyAndIsNeverWorse) {
   int slid = 0;
   visit_cases([&](const Case& c) {
-    const improve::QualityGoal goal = improve::goal_of(c.options);
-    improve::CellComplex x = complex_of(c.cube.model, goal);
+    const tets::QualityGoal goal = improve::goal_of(c.options);
+    tets::CellComplex x = complex_of(c.cube.model, goal);
     Invariants before = invariants_of(x);
     const double worst = worst_quality(x);
     EXPECT_GT(improve::improve_cells(x, c.freedom(), c.options).bad_cells, 0u);
@@ -166,8 +166,8 @@ TEST(Improving, FillsTheSameSpaceExactlyAndIsNeverWorse) {
 
 TEST(Improving, CountsWhatItDid) {
   visit_cases([](const Case& c) {
-    const improve::QualityGoal goal = improve::goal_of(c.options);
-    improve::CellComplex x = complex_of(c.cube.model, goal);
+    const tets::QualityGoal goal = improve::goal_of(c.options);
+    tets::CellComplex x = complex_of(c.cube.model, goal);
     const std::size_t bad_before = bad_cells(x, goal).size(), vertices = x.vertex_count();
     const std::vector<Point3> points = points_of(x);
     const std::set<Tetrahedron> cells = cells_of(x);
@@ -190,8 +190,8 @@ TEST(Improving, CountsWhatItDid) {
 
 TEST(Improving, IsDeterministic) {
   visit_cases([](const Case& c) {
-    const improve::QualityGoal goal = improve::goal_of(c.options);
-    improve::CellComplex x = complex_of(c.cube.model, goal), y = x;
+    const tets::QualityGoal goal = improve::goal_of(c.options);
+    tets::CellComplex x = complex_of(c.cube.model, goal), y = x;
     improve::improve_cells(x, c.freedom(), c.options);
     improve::improve_cells(y, c.freedom(), c.options);
     EXPECT_TRUE(points_of(x) == points_of(y));
@@ -205,19 +205,19 @@ TEST(Improving, MakesTheSameStepsTogetherAndInTurn) {
   std::uint64_t facet_flips = 0, insertions = 0, collapses = 0;
   for (unsigned seed = 1; seed <= 3; ++seed) {
     const Cube cube = cube_of(6, 0.49, seed);
-    const improve::QualityGoal goal = improve::goal_of(options);
-    const improve::CellComplex start = complex_of(cube.model, goal);
+    const tets::QualityGoal goal = improve::goal_of(options);
+    const tets::CellComplex start = complex_of(cube.model, goal);
     for (const auto boundary : {improve::BoundaryRule::keep, improve::BoundaryRule::slide}) {
       options.boundary = boundary;
       const Case c{cube, options};
-      improve::CellComplex in_turn = start;
+      tets::CellComplex in_turn = start;
       const improve::ImproveCounts counts =
           with_threads(1, [&] { return improve::improve_cells(in_turn, c.freedom(), options); });
       facet_flips += counts.facet_flips;
       insertions += counts.inserted_vertices;
       collapses += counts.collapsed_edges;
       for (const unsigned threads : {2u, 3u, 8u}) {
-        improve::CellComplex together = start;
+        tets::CellComplex together = start;
         with_threads(threads, [&] { return improve::improve_cells(together, c.freedom(), options); });
         expect_consistent(together);
         EXPECT_TRUE(points_of(in_turn) == points_of(together)) << threads << " threads";
@@ -234,19 +234,19 @@ TEST(Improving, MakesTheSameStepsTogetherAndInTurn) {
 TEST(Improving, LeavesNoSwapsOnceItFindsNone) {
   visit_cases([](const Case& c) {
     if (c.options.improvement != improve::Improvement::swap) return;
-    const improve::QualityGoal goal = improve::goal_of(c.options);
-    improve::CellComplex x = complex_of(c.cube.model, goal);
+    const tets::QualityGoal goal = improve::goal_of(c.options);
+    tets::CellComplex x = complex_of(c.cube.model, goal);
     std::uint64_t changes = 0;
     do {  // it gives up cells after several attempts; another run tries all of them
       changes = x.change_count();
       improve::improve_cells(x, c.freedom(), c.options);
     } while (x.change_count() != changes);
-    improve::Change change;
+    tets::Change change;
     for (const std::uint32_t cell : bad_cells(x, goal)) {
       for (std::uint32_t edge = 0; edge < 6; ++edge)
-        EXPECT_FALSE(improve::plan_edge_removal(x, cell, edge, x.quality(cell), change) && x.all_positive(change));
+        EXPECT_FALSE(tets::plan_edge_removal(x, cell, edge, x.quality(cell), change) && x.all_positive(change));
       for (std::uint32_t face = 0; face < 4; ++face)
-        EXPECT_FALSE(improve::plan_face_removal(x, cell, face, x.quality(cell), change) && x.all_positive(change));
+        EXPECT_FALSE(tets::plan_face_removal(x, cell, face, x.quality(cell), change) && x.all_positive(change));
     }
   });
 }
@@ -254,9 +254,9 @@ TEST(Improving, LeavesNoSwapsOnceItFindsNone) {
 TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
   PlanCounts all;
   for (const double jitter : {0.0, 0.49}) {
-    for (const improve::Objective objective : {improve::Objective::r, improve::Objective::dihedral}) {
-      const improve::QualityGoal goal{objective, 1, 1};
-      const improve::CellComplex x = complex_of(cube_of(3, jitter, 7).model, goal);
+    for (const tets::Objective objective : {tets::Objective::r, tets::Objective::dihedral}) {
+      const tets::QualityGoal goal{objective, 1, 1};
+      const tets::CellComplex x = complex_of(cube_of(3, jitter, 7).model, goal);
       const PlanCounts counts = expect_every_plan_is_sound(x);
       all.edge_removals += counts.edge_removals, all.face_removals += counts.face_removals;
       all.facet_flips += counts.facet_flips, all.collapses += counts.collapses, all.insertions += counts.insertions;
@@ -271,9 +271,9 @@ TEST(Improving, EveryPlanForRandomTetrahedraIsSound) {
 
 TEST(Improving, NoneChangesNothing) {
   const improve::ImproveOptions options{.improvement = improve::Improvement::none};
-  const improve::QualityGoal goal = improve::goal_of(options);
-  improve::CellComplex x = complex_of(cube_of(3, 0.4, 1).model, goal);
-  const improve::CellComplex before = x;
+  const tets::QualityGoal goal = improve::goal_of(options);
+  tets::CellComplex x = complex_of(cube_of(3, 0.4, 1).model, goal);
+  const tets::CellComplex before = x;
   EXPECT_EQ(improve::improve_cells(x, {}, options).stop, improve::ImproveStop::none);
   EXPECT_TRUE(cells_of(x) == cells_of(before));
   EXPECT_TRUE(points_of(x) == points_of(before));
@@ -281,8 +281,8 @@ TEST(Improving, NoneChangesNothing) {
 
 TEST(Improving, MovesOfOneStepAreThoseFoundOneAfterTheOther) {
   const improve::ImproveOptions options{.improvement = improve::Improvement::smooth, .target_dihedral = 50};
-  const improve::QualityGoal goal = improve::goal_of(options);
-  const improve::CellComplex x = complex_of(cube_of(4, 0.4, 1).model, goal);
+  const tets::QualityGoal goal = improve::goal_of(options);
+  const tets::CellComplex x = complex_of(cube_of(4, 0.4, 1).model, goal);
   const std::vector<improve::Freedom> freedom;  // none for vertices on the boundary
   improve::StepFinder finder(x, freedom, improve::Improvement::smooth);
   improve::Step step;
@@ -290,13 +290,13 @@ TEST(Improving, MovesOfOneStepAreThoseFoundOneAfterTheOther) {
   for (const std::uint32_t c : bad_cells(x, goal)) {
     finder.find(c, false, improve::Effort::usual, step);
     if (step.kind != improve::Step::Kind::moves) continue;
-    improve::CellComplex moved = x;
+    tets::CellComplex moved = x;
     for (std::size_t i = 0; i < step.move_count; ++i) {
       const improve::Move& move = step.moves[i];
-      improve::CellMarks marks;
-      improve::VertexStar star;
+      tets::CellMarks marks;
+      tets::VertexStar star;
       improve::MoveScratch scratch;
-      improve::gather_star(moved, move.vertex, marks, star);
+      tets::gather_star(moved, move.vertex, marks, star);
       Point3 place = moved.point(move.vertex);
       improve::move_apex(star.faces, goal, {}, moved.worst_of(star.cells), scratch, place);
       EXPECT_TRUE(place == move.place) << "cell " << c << ", move " << i;
@@ -311,10 +311,10 @@ TEST(Improving, MovesOfOneStepAreThoseFoundOneAfterTheOther) {
 
 TEST(Improving, ReachesALowTarget) {
   improve::ImproveOptions options{
-      improve::Improvement::all, improve::Objective::dihedral, improve::BoundaryRule::keep, 5, 2, 0};
+      improve::Improvement::all, tets::Objective::dihedral, improve::BoundaryRule::keep, 5, 2, 0};
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const improve::QualityGoal goal = improve::goal_of(options);
-    improve::CellComplex x = complex_of(cube_of(4, 0.4, seed).model, goal);
+    const tets::QualityGoal goal = improve::goal_of(options);
+    tets::CellComplex x = complex_of(cube_of(4, 0.4, seed).model, goal);
     EXPECT_LT(worst_quality(x), goal.sine);
     EXPECT_EQ(improve::improve_cells(x, {}, options).stop, improve::ImproveStop::target);
     EXPECT_GE(worst_quality(x), goal.sine);
@@ -323,11 +323,11 @@ TEST(Improving, ReachesALowTarget) {
 
 TEST(Improving, LeavesAConsistentMeshWhenTheTimeIsUp) {
   improve::ImproveOptions options{
-      improve::Improvement::all, improve::Objective::r, improve::BoundaryRule::keep, 60, 1, 1e-9};
-  const improve::QualityGoal goal = improve::goal_of(options);
+      improve::Improvement::all, tets::Objective::r, improve::BoundaryRule::keep, 60, 1, 1e-9};
+  const tets::QualityGoal goal = improve::goal_of(options);
   for (const double time : {1e-9, 1e-3, 1e-2}) {
     options.time = time;
-    improve::CellComplex x = complex_of(cube_of(7, 0.4, 3).model, goal);
+    tets::CellComplex x = complex_of(cube_of(7, 0.4, 3).model, goal);
     const Invariants before = invariants_of(x);
     const improve::ImproveCounts counts = improve::improve_cells(x, {}, options);
     EXPECT_EQ(counts.stop, improve::ImproveStop::time);

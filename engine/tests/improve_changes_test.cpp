@@ -12,9 +12,10 @@
 #include <vector>
 
 #include "engine/improve/improve_mesh.h"
-#include "engine/improve/shake_cells.h"
+#include "engine/improve/insert_and_collapse.h"
 #include "engine/numbers/predicates.h"
 #include "engine/tests/improve_checks.h"
+#include "engine/tets/shake_cells.h"
 
 namespace ccdt {
 namespace {
@@ -22,8 +23,8 @@ namespace {
 using namespace improve_test;
 
 /// 1 / r alone, so that any difference of shape counts.
-const improve::QualityGoal by_shape{improve::Objective::r, 1, 1};
-const improve::QualityGoal by_angle{improve::Objective::dihedral, 0.5, std::sin(std::numbers::pi / 3)};
+const tets::QualityGoal by_shape{tets::Objective::r, 1, 1};
+const tets::QualityGoal by_angle{tets::Objective::dihedral, 0.5, std::sin(std::numbers::pi / 3)};
 
 /// Tetrahedra around the edge from 0 to 1; the ring is 2, 3, ...
 Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
@@ -38,12 +39,12 @@ Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
 }
 
 /// Plans to remove an edge that the first cell has.
-bool plan_removal(const improve::CellComplex& x, std::uint32_t a, std::uint32_t b, improve::Change& change) {
-  return improve::plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);
+bool plan_removal(const tets::CellComplex& x, std::uint32_t a, std::uint32_t b, tets::Change& change) {
+  return tets::plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);
 }
 
 /// Makes the change and expects a consistent result.
-void apply_checked(improve::CellComplex& x, const improve::Change& change) {
+void apply_checked(tets::CellComplex& x, const tets::Change& change) {
   const Invariants before = invariants_of(x);
   ASSERT_TRUE(x.all_positive(change));
   apply_change(x, change);
@@ -84,8 +85,8 @@ Model octahedron() {
 }
 
 TEST(Changes, ThreeTetrahedraAroundAnEdgeBecomeTwo) {
-  improve::CellComplex x = complex_of(ring_of(3), by_shape);
-  improve::Change change;
+  tets::CellComplex x = complex_of(ring_of(3), by_shape);
+  tets::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   EXPECT_TRUE(change.faces.empty());
   apply_checked(x, change);
@@ -95,9 +96,9 @@ TEST(Changes, ThreeTetrahedraAroundAnEdgeBecomeTwo) {
 TEST(Changes, TwoFlatTetrahedraBecomeThreeAroundAnEdge) {
   Model model = ring_of(3, 300, 1000);
   model.cells = {{0, 2, 3, 4}, {1, 2, 3, 4}};
-  improve::CellComplex x = complex_of(model, by_shape);
-  improve::Change change;
-  ASSERT_TRUE(improve::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
+  tets::CellComplex x = complex_of(model, by_shape);
+  tets::Change change;
+  ASSERT_TRUE(tets::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 3, 4}}));
 }
@@ -105,18 +106,18 @@ TEST(Changes, TwoFlatTetrahedraBecomeThreeAroundAnEdge) {
 TEST(Changes, FourTetrahedraAroundAnEdgeBecomeFourAroundTheShorterDiagonal) {
   Model model = ring_of(4);
   model.points[2].x = 150, model.points[4].x = -150;
-  improve::CellComplex x = complex_of(model, by_shape);
-  improve::Change change;
+  tets::CellComplex x = complex_of(model, by_shape);
+  tets::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 5}, {0, 3, 4, 5}, {1, 2, 3, 5}, {1, 3, 4, 5}}));
 }
 
 TEST(Changes, RingsUpToTheLongestGiveWayToTwoTetrahedraForEachOfTheirTriangles) {
-  for (std::uint32_t size = 3; size <= improve::longest_ring; ++size) {
+  for (std::uint32_t size = 3; size <= tets::longest_ring; ++size) {
     SCOPED_TRACE(size);
-    improve::CellComplex x = complex_of(ring_of(size), by_shape);
-    improve::Change change;
+    tets::CellComplex x = complex_of(ring_of(size), by_shape);
+    tets::Change change;
     ASSERT_TRUE(plan_removal(x, 0, 1, change));
     apply_checked(x, change);
     EXPECT_EQ(cells_of(x).size(), 2 * (size - 2));
@@ -125,7 +126,7 @@ TEST(Changes, RingsUpToTheLongestGiveWayToTwoTetrahedraForEachOfTheirTriangles) 
 }
 
 TEST(Changes, RingThatGivesWayToMoreTetrahedraCountsAsARemovedEdge) {
-  improve::CellComplex x = complex_of(ring_of(5), by_shape);
+  tets::CellComplex x = complex_of(ring_of(5), by_shape);
   const improve::ImproveCounts counts = improve::improve_cells(x, {}, {.improvement = improve::Improvement::swap});
   EXPECT_EQ(cells_of(x).size(), 6u);
   EXPECT_EQ(counts.removed_edges, 1u);
@@ -143,13 +144,13 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   for (const Point3& p : far.points) model.points.push_back({p.x + 10000, p.y, p.z});
   for (const Tetrahedron& t : far.cells)
     model.cells.push_back({t[0] + offset, t[1] + offset, t[2] + offset, t[3] + offset});
-  improve::CellComplex x = complex_of(model, by_shape);
+  tets::CellComplex x = complex_of(model, by_shape);
   const Invariants before = invariants_of(x);
-  improve::Change change, neighbor, distant;
+  tets::Change change, neighbor, distant;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
-  ASSERT_TRUE(improve::plan_edge_removal(x, 3, edge_of_cell(x, 3, 1, 5), x.quality(3), neighbor));
+  ASSERT_TRUE(tets::plan_edge_removal(x, 3, edge_of_cell(x, 3, 1, 5), x.quality(3), neighbor));
   distant.old_cells = {6, 7, 8};
-  improve::Cavity cavity, beside, apart;
+  tets::Cavity cavity, beside, apart;
   x.find_cavity(change, cavity);
   x.find_cavity(neighbor, beside);
   x.find_cavity(distant, apart);
@@ -162,11 +163,11 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   EXPECT_FALSE(x.has_changed_beyond(apart, since));
 
   x.fill_cavity(change, places, cavity);
-  improve::Cavity again;
+  tets::Cavity again;
   x.find_cavity(neighbor, again);
-  const auto codes_of = [](const improve::Cavity& its) {
+  const auto codes_of = [](const tets::Cavity& its) {
     std::set<std::uint32_t> codes;
-    for (const improve::Cavity::Face& face : its.faces) codes.insert(face.code);
+    for (const tets::Cavity::Face& face : its.faces) codes.insert(face.code);
     return codes;
   };
   EXPECT_TRUE(codes_of(again) != codes_of(beside));
@@ -177,7 +178,7 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
 }
 
 TEST(CellMarks, AreForgottenByEveryLaterSearch) {
-  improve::CellMarks marks;
+  tets::CellMarks marks;
   marks.clear(2);
   marks.mark(1);
   for (int search = 0; search < 1 << 17; ++search) {
@@ -187,24 +188,24 @@ TEST(CellMarks, AreForgottenByEveryLaterSearch) {
 }
 
 TEST(Changes, LongerRingIsLeftAlone) {
-  improve::CellComplex x = complex_of(ring_of(improve::longest_ring + 1), by_shape);
+  tets::CellComplex x = complex_of(ring_of(tets::longest_ring + 1), by_shape);
   // Not for lack of something better: of all triangles of the ring, none is smaller than one that cuts off a corner.
   EXPECT_GT(x.quality_of({2, 3, 4, 1}), x.quality(0));
-  improve::Change change;
+  tets::Change change;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    EXPECT_FALSE(improve::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), x.quality(c), change));
+    EXPECT_FALSE(tets::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), x.quality(c), change));
 }
 
 TEST(Changes, RingThatIsAsGoodAsAnyIsLeftAlone) {
-  improve::CellComplex x = complex_of(ring_of(5, 100, 170), by_shape);  // nearly regular tetrahedra
-  improve::Change change;
+  tets::CellComplex x = complex_of(ring_of(5, 100, 170), by_shape);  // nearly regular tetrahedra
+  tets::Change change;
   EXPECT_FALSE(plan_removal(x, 0, 1, change));
   EXPECT_EQ(expect_every_plan_is_sound(x).edge_removals, 0);
 }
 
 TEST(Changes, DiagonalOnAFlatBoundaryFacetIsExchanged) {
-  improve::CellComplex x = complex_of(square_with_long_diagonal(), by_shape);
-  improve::Change change;
+  tets::CellComplex x = complex_of(square_with_long_diagonal(), by_shape);
+  tets::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   EXPECT_EQ(change.faces.size(), 2u);
   apply_checked(x, change);
@@ -214,8 +215,8 @@ TEST(Changes, DiagonalOnAFlatBoundaryFacetIsExchanged) {
 }
 
 TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
-  improve::CellComplex x = complex_of(square_between_regions(), by_shape);
-  improve::Change change;
+  tets::CellComplex x = complex_of(square_between_regions(), by_shape);
+  tets::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 4}, {1, 2, 3, 4}, {0, 2, 3, 5}, {1, 2, 3, 5}}));
@@ -235,11 +236,11 @@ Model nearly_flat_dart() {
 }
 
 TEST(Changes, DiagonalOnANearlyFlatFacetIsNotExchangedWhereItsFacesWouldFoldOver) {
-  const improve::CellComplex x = complex_of(nearly_flat_dart(), by_shape);
+  const tets::CellComplex x = complex_of(nearly_flat_dart(), by_shape);
   ASSERT_LT(x.quality_of({2, 3, 4, 0}) * x.quality_of({2, 3, 4, 1}), 0);
-  improve::Change change;
+  tets::Change change;
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    EXPECT_FALSE(improve::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), 0, change));
+    EXPECT_FALSE(tets::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), 0, change));
 }
 
 /// A pyramid whose base is a parallelogram halfway between two axes, flat but for a few units, of four faces around
@@ -291,9 +292,9 @@ TEST(Changes, FacesOfANearlyFlatFacetAreSeenAlongOneAxis) {
   for (int i = 0; i < 1000; ++i) {
     const Model model = pyramid_on_a_fan(random);
     if (!are_positive(model)) continue;
-    improve::CellComplex x = complex_of(model, by_shape);
+    tets::CellComplex x = complex_of(model, by_shape);
     std::vector<std::uint32_t> made;
-    improve::CellShaker(x).shake(4, 200, 0, made);
+    tets::CellShaker(x).shake(4, 200, 0, made);
     flipped += !has_edge(x, 0, 4);
     expect_consistent(x);
   }
@@ -301,8 +302,8 @@ TEST(Changes, FacesOfANearlyFlatFacetAreSeenAlongOneAxis) {
 }
 
 TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
-  improve::CellComplex x = complex_of(square_between_regions(), by_shape);
-  improve::Change change;
+  tets::CellComplex x = complex_of(square_between_regions(), by_shape);
+  tets::Change change;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
   mesh::TetMesh mesh;
@@ -319,11 +320,11 @@ TEST(Changes, FlippedFacesStayFacesOfTheirFacetWithTheirOrientation) {
 
 TEST(Changes, EdgeOnASegmentIsNeverRemoved) {
   for (Model model : {ring_of(3), ring_of(4), ring_of(6), square_with_long_diagonal(), square_between_regions()}) {
-    const improve::CellComplex free = complex_of(model, by_shape);
-    improve::Change change;
+    const tets::CellComplex free = complex_of(model, by_shape);
+    tets::Change change;
     EXPECT_TRUE(plan_removal(free, 0, 1, change));
     model.segments.push_back({0, 1});
-    const improve::CellComplex x = complex_of(model, by_shape);
+    const tets::CellComplex x = complex_of(model, by_shape);
     EXPECT_FALSE(plan_removal(x, 0, 1, change));
     expect_every_plan_is_sound(x);
   }
@@ -332,8 +333,8 @@ TEST(Changes, EdgeOnASegmentIsNeverRemoved) {
 TEST(Changes, EdgeBetweenDifferentFacetsIsNeverRemoved) {
   for (Model model : {square_with_long_diagonal(), square_between_regions()}) {
     model.facet_of_face = {7, 8};
-    const improve::CellComplex x = complex_of(model, by_shape);
-    improve::Change change;
+    const tets::CellComplex x = complex_of(model, by_shape);
+    tets::Change change;
     EXPECT_FALSE(plan_removal(x, 0, 1, change));
     expect_every_plan_is_sound(x);
   }
@@ -344,8 +345,8 @@ TEST(Changes, DiagonalOfAQuadrilateralThatIsNotConvexStays) {
   model.points[0] = {50, 0, 0};  // the other diagonal passes by
   model.points[2] = {0, -200, 0};
   model.points[3] = {0, 200, 0};
-  const improve::CellComplex x = complex_of(model, by_shape);
-  improve::Change change;
+  const tets::CellComplex x = complex_of(model, by_shape);
+  tets::Change change;
   EXPECT_FALSE(plan_removal(x, 0, 1, change));
 }
 
@@ -360,7 +361,7 @@ TEST(Changes, WallIsNeverRemoved) {
   ring.faces = {{0, 1, 2}};
   ring.facet_of_face = {7};
   ring.segments = {{0, 1}, {1, 2}, {2, 0}};
-  const improve::CellComplex x = complex_of(ring, by_shape);
+  const tets::CellComplex x = complex_of(ring, by_shape);
   EXPECT_EQ(expect_every_plan_is_sound(x).edge_removals, 0);
 }
 
@@ -368,9 +369,9 @@ TEST(Changes, TwoFacesAreRemovedTogetherWithTheEdgeBetweenThem) {
   Model model = ring_of(4, 100, 100);
   model.points[2].x = 150, model.points[4].x = -150;
   model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
-  improve::CellComplex x = complex_of(model, by_shape);
-  improve::Change change;
-  ASSERT_TRUE(improve::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
+  tets::CellComplex x = complex_of(model, by_shape);
+  tets::Change change;
+  ASSERT_TRUE(tets::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
   apply_checked(x, change);
   EXPECT_FALSE(has_edge(x, 2, 4));
   EXPECT_TRUE(has_edge(x, 0, 1));
@@ -381,13 +382,13 @@ TEST(Changes, DanglingSegmentBetweenTwoFacesStays) {
   model.points[2].x = 150, model.points[4].x = -150;
   model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
   model.segments = {{2, 4}};
-  const improve::CellComplex x = complex_of(model, by_shape);
+  const tets::CellComplex x = complex_of(model, by_shape);
   expect_every_plan_is_sound(x);
 }
 
 TEST(Changes, InteriorVertexIsCollapsed) {
-  improve::CellComplex x = complex_of(octahedron(), by_shape);
-  improve::Change change;
+  tets::CellComplex x = complex_of(octahedron(), by_shape);
+  tets::Change change;
   improve::PlanScratch scratch;
   ASSERT_TRUE(improve::plan_collapse(x, 0, x.quality(0), scratch, change));
   apply_checked(x, change);
@@ -407,7 +408,7 @@ TEST(Changes, CavityOfANewVertexSwallowsInteriorVertices) {
 TEST(Changes, IsolatedVertexOfTheInputStays) {
   Model model = octahedron();
   model.first_interior = 7;
-  for (const improve::QualityGoal& goal : {by_shape, by_angle}) {
+  for (const tets::QualityGoal& goal : {by_shape, by_angle}) {
     const PlanCounts counts = expect_every_plan_is_sound(complex_of(model, goal));
     EXPECT_EQ(counts.collapses, 0);
     EXPECT_TRUE(counts.vertices_gone.empty());
@@ -418,8 +419,8 @@ TEST(Changes, CavityOfANewVertexKeepsDanglingSegments) {
   for (const std::uint32_t size : {3u, 4u, 5u, 6u, 7u}) {
     SCOPED_TRACE(size);
     Model model = ring_of(size, 400, 200);
-    improve::CellComplex free = complex_of(model, by_angle);
-    improve::Change change;
+    tets::CellComplex free = complex_of(model, by_angle);
+    tets::Change change;
     improve::PlanScratch scratch;
     ASSERT_TRUE(improve::plan_insertion(free, 0, free.quality(0), scratch, change));
     apply_change(free, change);
@@ -433,7 +434,7 @@ TEST(Changes, CavityOfANewVertexKeepsASegmentThatEndsInside) {
   Model model = octahedron();
   model.segments = {{1, 6}};
   model.first_interior = 7;
-  for (const improve::QualityGoal& goal : {by_shape, by_angle})
+  for (const tets::QualityGoal& goal : {by_shape, by_angle})
     EXPECT_TRUE(expect_every_plan_is_sound(complex_of(model, goal)).vertices_gone.empty());
 }
 
@@ -441,9 +442,9 @@ TEST(Changes, VertexIsInsertedIntoASliver) {
   Model model;  // the sliver 0 1 2 3, its long edges crossing, between the vertices 4 above and 5 below
   model.points = {{-100, 0, -2}, {100, 0, -2}, {0, -100, 2}, {0, 100, 2}, {0, 0, 140}, {0, 0, -140}};
   model.cells = {{0, 1, 2, 3}, {2, 3, 0, 4}, {2, 3, 1, 4}, {0, 1, 2, 5}, {0, 1, 3, 5}};
-  improve::CellComplex x = complex_of(model, by_angle);
+  tets::CellComplex x = complex_of(model, by_angle);
   EXPECT_LT(x.quality(0), 0.1);
-  improve::Change change;
+  tets::Change change;
   improve::PlanScratch scratch;
   ASSERT_TRUE(improve::plan_insertion(x, 0, x.quality(0), scratch, change));
   const Invariants before = invariants_of(x);

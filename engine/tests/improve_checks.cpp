@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "engine/improve/insert_and_collapse.h"
+
 namespace ccdt::improve_test {
 namespace {
 
@@ -39,12 +41,12 @@ Integer sixfold_volume(const std::vector<Point3>& points, const Tetrahedron& t) 
 }
 
 template <class Visit>
-void visit_cells(const improve::CellComplex& x, const Visit& visit) {
+void visit_cells(const tets::CellComplex& x, const Visit& visit) {
   for (std::uint32_t c = 0; c < x.cell_count(); ++c)
     if (!x.is_dead(c)) visit(c);
 }
 
-FaceKey key_of(const improve::CellComplex& x, std::uint32_t code) {
+FaceKey key_of(const tets::CellComplex& x, std::uint32_t code) {
   const auto& v = x.cell(delaunay::cell_of(code)).vertices;
   const auto& corner = delaunay::face_corners[delaunay::face_of(code)];
   return face_key(v[corner[0]], v[corner[1]], v[corner[2]]);
@@ -78,7 +80,7 @@ void add_boundary(Model& model) {
     }
 }
 
-void expect_neighbors_fit(const improve::CellComplex& x, std::uint32_t code) {
+void expect_neighbors_fit(const tets::CellComplex& x, std::uint32_t code) {
   const std::uint32_t c = delaunay::cell_of(code), beyond = x.cell(c).neighbors[delaunay::face_of(code)];
   const FaceKey key = key_of(x, code);
   const bool on_facet = x.find_face(key[0], key[1], key[2]).has_value();
@@ -92,7 +94,7 @@ void expect_neighbors_fit(const improve::CellComplex& x, std::uint32_t code) {
   EXPECT_TRUE(x.is_wall(code) || x.region(delaunay::cell_of(beyond)) == x.region(c)) << "cell " << c;
 }
 
-void expect_vertices_know_cells(const improve::CellComplex& x) {
+void expect_vertices_know_cells(const tets::CellComplex& x) {
   std::vector<bool> in_use(x.vertex_count(), false);
   visit_cells(x, [&](std::uint32_t c) {
     for (const std::uint32_t v : x.cell(c).vertices) in_use[v] = true;
@@ -106,7 +108,7 @@ void expect_vertices_know_cells(const improve::CellComplex& x) {
   }
 }
 
-void expect_faces_and_segments_there(const improve::CellComplex& x) {
+void expect_faces_and_segments_there(const tets::CellComplex& x) {
   std::set<FaceKey> faces;
   std::set<std::uint64_t> edges;
   visit_cells(x, [&](std::uint32_t c) {
@@ -116,7 +118,7 @@ void expect_faces_and_segments_there(const improve::CellComplex& x) {
       for (std::uint32_t j = 0; j < i; ++j) edges.insert(edge_key(v[i], v[j]));
   });
   for (std::uint32_t f = 0; f < x.faces().size(); ++f) {
-    if (x.faces()[f] == improve::no_corners) continue;
+    if (x.faces()[f] == tets::no_corners) continue;
     const FaceKey key = face_key(x.faces()[f][0], x.faces()[f][1], x.faces()[f][2]);
     EXPECT_TRUE(faces.contains(key)) << "face " << f;
     EXPECT_EQ(x.find_face(key[0], key[1], key[2]), f);
@@ -127,15 +129,15 @@ void expect_faces_and_segments_there(const improve::CellComplex& x) {
 }
 
 /// Makes a planned change in a copy.
-void expect_sound(improve::CellComplex x, const Invariants& before, double least, const improve::Change& change,
+void expect_sound(tets::CellComplex x, const Invariants& before, double least, const tets::Change& change,
                   PlanCounts& counts) {
-  EXPECT_GT(improve::worst_of(change.new_cells), least);
+  EXPECT_GT(tets::worst_of(change.new_cells), least);
   if (!x.all_positive(change)) return;  // such a plan is given up
   const std::uint64_t changes = x.change_count();
   const auto places = apply_change(x, change);
   EXPECT_GT(x.change_count(), changes);
   EXPECT_EQ(places.size(), change.new_cells.size());
-  for (const improve::NewCell& made : change.new_cells) EXPECT_EQ(made.quality, x.quality_of(made.vertices));
+  for (const tets::NewCell& made : change.new_cells) EXPECT_EQ(made.quality, x.quality_of(made.vertices));
   expect_consistent(x);
   EXPECT_TRUE(invariants_of(x) == before);
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v)
@@ -144,13 +146,13 @@ void expect_sound(improve::CellComplex x, const Invariants& before, double least
 
 }  // namespace
 
-std::vector<Point3> points_of(const improve::CellComplex& x) {
+std::vector<Point3> points_of(const tets::CellComplex& x) {
   std::vector<Point3> points;
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v) points.push_back(x.point(v));
   return points;
 }
 
-std::vector<std::uint32_t> apply_change(improve::CellComplex& x, improve::Change change) {
+std::vector<std::uint32_t> apply_change(tets::CellComplex& x, tets::Change change) {
   std::vector<std::uint32_t> made;
   x.apply(change, made);
   return made;
@@ -163,18 +165,18 @@ LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh) {
   return cells;
 }
 
-improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal) {
+tets::CellComplex complex_of(Model model, const tets::QualityGoal& goal) {
   for (Tetrahedron& t : model.cells) orient(model.points, t);
   add_boundary(model);
   mesh::TetMesh mesh;
   mesh.tetrahedra = model.cells;
   model.regions.resize(model.cells.size(), 0);
   const auto first_interior = std::min(model.first_interior, static_cast<std::uint32_t>(model.points.size()));
-  return improve::CellComplex(model.faces, model.segments, unjoined_cells(mesh), model.regions, model.points,
-                              model.facet_of_face, first_interior, goal);
+  return tets::CellComplex(model.faces, model.segments, unjoined_cells(mesh), model.regions, model.points,
+                           model.facet_of_face, first_interior, goal);
 }
 
-Invariants invariants_of(const improve::CellComplex& x) {
+Invariants invariants_of(const tets::CellComplex& x) {
   Invariants result;
   const std::vector<Point3> points = points_of(x);
   visit_cells(x, [&](std::uint32_t c) {
@@ -186,7 +188,7 @@ Invariants invariants_of(const improve::CellComplex& x) {
     }
   });
   for (std::size_t f = 0; f < x.faces().size(); ++f) {
-    if (x.faces()[f] == improve::no_corners) continue;
+    if (x.faces()[f] == tets::no_corners) continue;
     const IntegerPoint area = area_vector(points, x.faces()[f][0], x.faces()[f][1], x.faces()[f][2]);
     auto& sum = result.twofold_area_vectors[x.facet_of_face()[f]];
     for (std::size_t i = 0; i < 3; ++i) sum[i] += area[i];
@@ -195,7 +197,7 @@ Invariants invariants_of(const improve::CellComplex& x) {
   return result;
 }
 
-void expect_consistent(const improve::CellComplex& x) {
+void expect_consistent(const tets::CellComplex& x) {
   std::size_t dead = 0;
   const std::vector<Point3> points = points_of(x);
   for (std::uint32_t c = 0; c < x.cell_count(); ++c) {
@@ -210,11 +212,11 @@ void expect_consistent(const improve::CellComplex& x) {
   expect_faces_and_segments_there(x);
 }
 
-PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex) {
+PlanCounts expect_every_plan_is_sound(const tets::CellComplex& complex) {
   PlanCounts counts;
   const Invariants before = invariants_of(complex);
-  const improve::CellComplex& x = complex;
-  improve::Change change;
+  const tets::CellComplex& x = complex;
+  tets::Change change;
   improve::PlanScratch scratch;
   const auto make = [&](int& count, std::uint32_t cell) {
     ++count;
@@ -224,25 +226,25 @@ PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex) {
     SCOPED_TRACE("cell " + std::to_string(c));
     const double least = complex.quality(c);
     for (std::uint32_t edge = 0; edge < 6; ++edge) {
-      if (!improve::plan_edge_removal(x, c, edge, least, change)) continue;
+      if (!tets::plan_edge_removal(x, c, edge, least, change)) continue;
       counts.facet_flips += change.faces.empty() ? 0 : 1;
       make(counts.edge_removals, c);
     }
     for (std::uint32_t face = 0; face < 4; ++face)
-      if (improve::plan_face_removal(x, c, face, least, change)) make(counts.face_removals, c);
+      if (tets::plan_face_removal(x, c, face, least, change)) make(counts.face_removals, c);
     if (improve::plan_collapse(x, c, least, scratch, change)) make(counts.collapses, c);
     if (improve::plan_insertion(x, c, least, scratch, change)) make(counts.insertions, c);
   });
   return counts;
 }
 
-double worst_quality(const improve::CellComplex& x) {
+double worst_quality(const tets::CellComplex& x) {
   double worst = 2;
   visit_cells(x, [&](std::uint32_t c) { worst = std::min(worst, x.quality(c)); });
   return worst;
 }
 
-std::set<Tetrahedron> cells_of(const improve::CellComplex& x) {
+std::set<Tetrahedron> cells_of(const tets::CellComplex& x) {
   std::set<Tetrahedron> cells;
   visit_cells(x, [&](std::uint32_t c) {
     Tetrahedron t = x.cell(c).vertices;
@@ -252,7 +254,7 @@ std::set<Tetrahedron> cells_of(const improve::CellComplex& x) {
   return cells;
 }
 
-std::uint32_t edge_of_cell(const improve::CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
+std::uint32_t edge_of_cell(const tets::CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
   const auto& v = x.cell(cell).vertices;
   std::uint32_t edge = 0;
   while (edge < 6 && edge_key(v[delaunay::edge_corners[edge][0]], v[delaunay::edge_corners[edge][1]]) != edge_key(a, b))
@@ -260,7 +262,7 @@ std::uint32_t edge_of_cell(const improve::CellComplex& x, std::uint32_t cell, st
   return edge;
 }
 
-bool has_edge(const improve::CellComplex& x, std::uint32_t a, std::uint32_t b) {
+bool has_edge(const tets::CellComplex& x, std::uint32_t a, std::uint32_t b) {
   return std::ranges::any_of(cells_of(x), [&](const Tetrahedron& t) {
     return std::ranges::count(t, a) == 1 && std::ranges::count(t, b) == 1;
   });

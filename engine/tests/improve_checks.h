@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "engine/improve/topological_changes.h"
+#include "engine/tets/swaps.h"
 
 /// The invariants of every change of a mesh, computed without the engine.
 namespace ccdt::improve_test {
@@ -29,15 +29,15 @@ struct Model {
   std::uint32_t first_interior = 0xFFFFFFFFu;  ///< none is interior
 };
 
-std::vector<Point3> points_of(const improve::CellComplex& complex);
+std::vector<Point3> points_of(const tets::CellComplex& complex);
 
 /// \return the new cells
-std::vector<std::uint32_t> apply_change(improve::CellComplex& complex, improve::Change change);
+std::vector<std::uint32_t> apply_change(tets::CellComplex& complex, tets::Change change);
 
 /// The tetrahedra of a mesh as cells without neighbors.
 LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh);
 
-improve::CellComplex complex_of(Model model, const improve::QualityGoal& goal);
+tets::CellComplex complex_of(Model model, const tets::QualityGoal& goal);
 
 /// Exact sums, which stay the same as long as the same space is filled once and the facets keep their orientation.
 struct Invariants {
@@ -51,14 +51,14 @@ struct Invariants {
 };
 
 /// Of the living cells.
-double worst_quality(const improve::CellComplex& complex);
+double worst_quality(const tets::CellComplex& complex);
 
-Invariants invariants_of(const improve::CellComplex& complex);
+Invariants invariants_of(const tets::CellComplex& complex);
 
 /// The data of the complex are consistent: neighbors are mutual and share three vertices, walls are exactly at the
 /// faces on facets and at the boundary, cells are exactly positive and of the quality that they say, regions end at
 /// walls, each vertex knows one of its cells, and segments are edges of cells.
-void expect_consistent(const improve::CellComplex& complex);
+void expect_consistent(const tets::CellComplex& complex);
 
 /// How many changes are possible, by kind.
 struct PlanCounts {
@@ -70,14 +70,14 @@ struct PlanCounts {
 
 /// Makes each change that involves any cell, in a copy of the complex. Expects that each is an improvement, that
 /// everything is consistent, and that the invariants hold.
-PlanCounts expect_every_plan_is_sound(const improve::CellComplex& complex);
+PlanCounts expect_every_plan_is_sound(const tets::CellComplex& complex);
 
 /// The tetrahedra that are not dead, with sorted vertices.
-std::set<Tetrahedron> cells_of(const improve::CellComplex& complex);
+std::set<Tetrahedron> cells_of(const tets::CellComplex& complex);
 
 /// The edge of the cell between two vertices, or 6.
-std::uint32_t edge_of_cell(const improve::CellComplex& complex, std::uint32_t cell, std::uint32_t a, std::uint32_t b);
+std::uint32_t edge_of_cell(const tets::CellComplex& complex, std::uint32_t cell, std::uint32_t a, std::uint32_t b);
 
-bool has_edge(const improve::CellComplex& complex, std::uint32_t a, std::uint32_t b);
+bool has_edge(const tets::CellComplex& complex, std::uint32_t a, std::uint32_t b);
 
 }  // namespace ccdt::improve_test

@@ -11,9 +11,9 @@
 #include <random>
 #include <string>
 
-#include "engine/improve/cell_complex.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "engine/tets/cell_complex.h"
 #include "models/solids.h"
 
 // Improves whole meshes of inputs of every kind, and verifies them by means other than the engine's.
@@ -60,8 +60,8 @@ WorstShape worst_shape(const TetMesh& mesh) {
   WorstShape worst;
   for (const auto& t : mesh.tetrahedra) {
     const auto& at = mesh.vertices;
-    worst.inverse_r = std::min(worst.inverse_r, improve::inverse_r(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
-    worst.least_sine = std::min(worst.least_sine, improve::least_sine(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
+    worst.inverse_r = std::min(worst.inverse_r, tets::inverse_r(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
+    worst.least_sine = std::min(worst.least_sine, tets::least_sine(at[t[0]], at[t[1]], at[t[2]], at[t[3]]));
   }
   return worst;
 }
@@ -69,7 +69,7 @@ WorstShape worst_shape(const TetMesh& mesh) {
 void expect_not_worse(const TetMesh& before, const TetMesh& after, const ImproveOptions& options) {
   constexpr double rounding = 1e-9;
   const WorstShape old_worst = worst_shape(before), new_worst = worst_shape(after);
-  const improve::QualityGoal goal = improve::goal_of(options);
+  const tets::QualityGoal goal = improve::goal_of(options);
   if (options.objective == Objective::r) {
     EXPECT_GE(new_worst.inverse_r, std::min(old_worst.inverse_r, goal.inverse_r) - rounding);
   } else {

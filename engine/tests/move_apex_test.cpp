@@ -21,9 +21,8 @@ using test::jittered_stars;
 using test::Star;
 
 /// Goals that no star reaches, so that the search runs to its end.
-const improve::QualityGoal best_r{improve::Objective::r, 1.1, 1.1}, best_sine{improve::Objective::dihedral, 1.1, 1.1};
-const improve::QualityGoal best_sine_of_good_r{improve::Objective::r, 0.5, 1.1},
-    usual{improve::Objective::r, 0.5, 0.34};
+const tets::QualityGoal best_r{tets::Objective::r, 1.1, 1.1}, best_sine{tets::Objective::dihedral, 1.1, 1.1};
+const tets::QualityGoal best_sine_of_good_r{tets::Objective::r, 0.5, 1.1}, usual{tets::Objective::r, 0.5, 0.34};
 
 bool is_integer(const Point3& p) {
   return p.x == std::round(p.x) && p.y == std::round(p.y) && p.z == std::round(p.z);
@@ -31,11 +30,11 @@ bool is_integer(const Point3& p) {
 
 bool all_positive(const Star& star) {
   return std::all_of(star.faces.begin(), star.faces.end(),
-                     [&](const improve::StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, star.apex) > 0; });
+                     [&](const tets::StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, star.apex) > 0; });
 }
 
 /// Moves the apex and checks the invariants of every move; returns the quality before and after.
-std::array<double, 2> move_checked(const improve::QualityGoal& goal, const improve::Freedom& freedom, Star& star) {
+std::array<double, 2> move_checked(const tets::QualityGoal& goal, const improve::Freedom& freedom, Star& star) {
   EXPECT_TRUE(all_positive(star));
   const Point3 from = star.apex;
   const double before = improve::worst_of_star(star.faces, goal, from);
@@ -53,12 +52,12 @@ std::array<double, 2> move_checked(const improve::QualityGoal& goal, const impro
 
 double radius(const Star& star) {
   double squared = 0;
-  for (const improve::StarFace& f : star.faces) squared = std::max(squared, squared_length(f.a - star.apex));
+  for (const tets::StarFace& f : star.faces) squared = std::max(squared, squared_length(f.a - star.apex));
   return std::sqrt(squared);
 }
 
 /// The best of ever finer grids around the best so far. `directions` spans where the apex may go.
-double best_of_grids(const Star& star, const improve::QualityGoal& goal, std::span<const Point3> directions) {
+double best_of_grids(const Star& star, const tets::QualityGoal& goal, std::span<const Point3> directions) {
   Point3 best = star.apex;
   double quality = improve::worst_of_star(star.faces, goal, best);
   const int dimensions = static_cast<int>(directions.size());
@@ -83,13 +82,13 @@ double best_of_grids(const Star& star, const improve::QualityGoal& goal, std::sp
 constexpr std::array<Point3, 3> all_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// The eight faces of an octahedron of this radius around the origin, seen from inside.
-std::vector<improve::StarFace> octahedron(double size) {
-  std::vector<improve::StarFace> faces;
+std::vector<tets::StarFace> octahedron(double size) {
+  std::vector<tets::StarFace> faces;
   for (const double x : {-size, size}) {
     for (const double y : {-size, size}) {
       for (const double z : {-size, size}) {
         const Point3 a{x, 0, 0}, b{0, y, 0}, c{0, 0, z};
-        faces.push_back(numbers::orient3d(a, b, c, {}) > 0 ? improve::StarFace{a, b, c} : improve::StarFace{b, a, c});
+        faces.push_back(numbers::orient3d(a, b, c, {}) > 0 ? tets::StarFace{a, b, c} : tets::StarFace{b, a, c});
       }
     }
   }
@@ -98,17 +97,17 @@ std::vector<improve::StarFace> octahedron(double size) {
 
 TEST(CellQuality, KnowsTheRegularTetrahedron) {
   const Point3 a{1, 1, 1}, b{-1, -1, 1}, c{-1, 1, -1}, d{1, -1, -1};
-  EXPECT_NEAR(std::fabs(improve::inverse_r(a, b, c, d)), 1, 1e-15);
-  EXPECT_NEAR(std::fabs(improve::least_sine(a, b, c, d)), std::sqrt(8.0) / 3, 1e-15);
-  EXPECT_NEAR(improve::inverse_r(a, b, c, d), -improve::inverse_r(b, a, c, d), 1e-15);
+  EXPECT_NEAR(std::fabs(tets::inverse_r(a, b, c, d)), 1, 1e-15);
+  EXPECT_NEAR(std::fabs(tets::least_sine(a, b, c, d)), std::sqrt(8.0) / 3, 1e-15);
+  EXPECT_NEAR(tets::inverse_r(a, b, c, d), -tets::inverse_r(b, a, c, d), 1e-15);
 }
 
 TEST(CellQuality, KnowsTheCornerOfACube) {
   const Point3 a{1, 0, 0}, b{0, 1, 0}, c{0, 0, 1}, d{};
   ASSERT_LT(numbers::orient3d(a, b, c, d), 0);
   // Edges: three of 1, three of sqrt(2): mean square 3/2. Angles: 90 degrees, and those with tangent sqrt(2).
-  EXPECT_NEAR(improve::inverse_r(b, a, c, d), std::numbers::sqrt2 / (1.5 * std::sqrt(1.5)), 1e-15);
-  EXPECT_NEAR(improve::least_sine(b, a, c, d), std::sqrt(2.0 / 3), 1e-15);
+  EXPECT_NEAR(tets::inverse_r(b, a, c, d), std::numbers::sqrt2 / (1.5 * std::sqrt(1.5)), 1e-15);
+  EXPECT_NEAR(tets::least_sine(b, a, c, d), std::sqrt(2.0 / 3), 1e-15);
 }
 
 TEST(CellQuality, OfManyIsThatOfEach) {
@@ -123,12 +122,12 @@ TEST(CellQuality, OfManyIsThatOfEach) {
     if (numbers::orient3d(points[cell[0]], points[cell[1]], points[cell[2]], points[cell[3]]) > 0)
       cells.push_back({cell, {}});
   }
-  for (const improve::QualityGoal& goal : {usual, improve::QualityGoal{improve::Objective::dihedral, 0.5, 0.34}}) {
+  for (const tets::QualityGoal& goal : {usual, tets::QualityGoal{tets::Objective::dihedral, 0.5, 0.34}}) {
     std::vector<double> qualities(cells.size());
-    improve::compute_qualities(goal, points, cells, qualities);
+    tets::compute_qualities(goal, points, cells, qualities);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const auto& [a, b, c, d] = cells[i].vertices;
-      EXPECT_EQ(qualities[i], improve::cell_quality(goal, points[a], points[b], points[c], points[d])) << "cell " << i;
+      EXPECT_EQ(qualities[i], tets::cell_quality(goal, points[a], points[b], points[c], points[d])) << "cell " << i;
     }
   }
 }
@@ -137,7 +136,7 @@ TEST(StarFunctions, AgreeWithTheQualityOfSingleTetrahedra) {
   improve::ScaledStar scaled;
   for (const Star& star : jittered_stars(0.3, 1)) {
     improve::load_star(star.faces, star.apex, scaled);
-    for (const improve::QualityGoal& goal : {best_r, best_sine, usual})
+    for (const tets::QualityGoal& goal : {best_r, best_sine, usual})
       EXPECT_NEAR(improve::least_quality(goal, {}, scaled), improve::worst_of_star(star.faces, goal, star.apex), 1e-12);
   }
 }
@@ -151,8 +150,7 @@ TEST(StarFunctions, HaveTheGradientsOfFiniteDifferences) {
   for (const Star& star : jittered_stars(0.3, 2)) {
     improve::load_star(star.faces, star.apex, scaled);
     const Point3 x{0.05, -0.03, 0.02};
-    for (const improve::QualityGoal& goal :
-         {best_r, best_sine, improve::QualityGoal{improve::Objective::r, 0.0, 1.1}}) {
+    for (const tets::QualityGoal& goal : {best_r, best_sine, tets::QualityGoal{tets::Objective::r, 0.0, 1.1}}) {
       const double least = improve::least_quality(goal, x, scaled);
       improve::model_star(goal, x, least, everything, scaled, models);
       for (const Point3& axis : all_axes) {
@@ -177,7 +175,7 @@ TEST(StarFunctions, LeaveOutWhatIsOutOfReach) {
   improve::LinearModels models;
   for (const Star& star : jittered_stars(0.3, 2)) {
     improve::load_star(star.faces, star.apex, scaled);
-    for (const improve::QualityGoal& goal : {best_r, best_sine}) {
+    for (const tets::QualityGoal& goal : {best_r, best_sine}) {
       const double least = improve::least_quality(goal, {}, scaled);
       improve::model_star(goal, {}, least, 0.1, scaled, models);
       ASSERT_GT(models.size(), 0u);
@@ -254,7 +252,7 @@ TEST(ProximalStep, IsBetterThanOtherSteps) {
 
 TEST(MoveApex, FindsTheCenterOfAnOctahedron) {
   const double size = 0x1p40;
-  for (const improve::QualityGoal& goal : {best_r, best_sine}) {
+  for (const tets::QualityGoal& goal : {best_r, best_sine}) {
     for (const Point3& start : {Point3{0.3, 0.2, -0.1}, Point3{-0.6, 0.1, 0.2}, Point3{0, 0, 0.95}}) {
       Star star{octahedron(size), size * start};
       star.apex = {std::round(star.apex.x), std::round(star.apex.y), std::round(star.apex.z)};
@@ -265,7 +263,7 @@ TEST(MoveApex, FindsTheCenterOfAnOctahedron) {
 }
 
 TEST(MoveApex, IsSeldomWorseThanASearchOfTheWholeStar) {
-  for (const improve::QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r}) {
+  for (const tets::QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r}) {
     for (const double jitter : {0.15, 0.3, 0.6}) {
       int stars = 0, close = 0;
       double found = 0, known = 0;
@@ -285,14 +283,14 @@ TEST(MoveApex, IsSeldomWorseThanASearchOfTheWholeStar) {
 TEST(MoveApex, NeverMakesAStarWorse) {
   for (const double jitter : {0.05, 0.3, 1.0, 3.0})
     for (Star& star : jittered_stars(jitter, 4))
-      for (const improve::QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r, usual})
+      for (const tets::QualityGoal& goal : {best_r, best_sine, best_sine_of_good_r, usual})
         move_checked(goal, {}, star);
 }
 
 TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
   const auto bad = [](const Star& star) {
-    return std::count_if(star.faces.begin(), star.faces.end(), [&](const improve::StarFace& f) {
-      return improve::cell_quality(usual, f.a, f.b, f.c, star.apex) < improve::goal_quality(usual);
+    return std::count_if(star.faces.begin(), star.faces.end(), [&](const tets::StarFace& f) {
+      return tets::cell_quality(usual, f.a, f.b, f.c, star.apex) < tets::goal_quality(usual);
     });
   };
   int small_gains = 0, great_gains = 0;
@@ -314,7 +312,7 @@ TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
 TEST(MoveApex, LeavesAStarAloneThatIsGoodEnough) {
   Star star{octahedron(0x1p40), {0x1p36, 0, 0}};
   const auto [before, after] = move_checked(usual, {}, star);
-  EXPECT_GE(before, improve::goal_quality(usual));
+  EXPECT_GE(before, tets::goal_quality(usual));
   EXPECT_EQ(after, before);
   EXPECT_EQ(star.apex, (Point3{0x1p36, 0, 0}));
 }
@@ -329,7 +327,7 @@ TEST(MoveApex, GoesNowhereWithoutFreedom) {
 TEST(MoveApex, StaysExactlyInAPlane) {
   const improve::Freedom freedom{2, {3 * 0x1p20, 1 * 0x1p20, 2 * 0x1p20}, {-1 * 0x1p20, 5 * 0x1p20, 7 * 0x1p20}};
   int moved = 0;
-  for (const improve::QualityGoal& goal : {best_r, best_sine}) {
+  for (const tets::QualityGoal& goal : {best_r, best_sine}) {
     for (Star& star : jittered_stars(0.3, 6)) {
       const Point3 from = star.apex;
       move_checked(goal, freedom, star);
@@ -347,7 +345,7 @@ TEST(MoveApex, StaysExactlyInAPlane) {
 TEST(MoveApex, StaysExactlyOnALine) {
   const improve::Freedom freedom{1, {3 * 0x1p20, 1 * 0x1p20, 2 * 0x1p20}, {}};
   int moved = 0;
-  for (const improve::QualityGoal& goal : {best_r, best_sine}) {
+  for (const tets::QualityGoal& goal : {best_r, best_sine}) {
     for (Star& star : jittered_stars(0.3, 6)) {
       const Point3 from = star.apex;
       move_checked(goal, freedom, star);
@@ -378,7 +376,7 @@ TEST(MoveApex, IsSeldomWorseThanASearchOfThePlaneOrTheLine) {
 TEST(MoveApex, LeavesNearlyFlatPlacesAndStaysPositive) {
   const double size = 0x1p40;
   for (const double depth : {0x1p-20, 0x1p-30, 0x1p-40}) {
-    for (const improve::QualityGoal& goal : {best_r, best_sine, usual}) {
+    for (const tets::QualityGoal& goal : {best_r, best_sine, usual}) {
       // One unit below the tip of the octahedron, and just inside one of its faces.
       Star tip{octahedron(size), {0, 0, size - size * depth}};
       EXPECT_GT(move_checked(goal, {}, tip)[1], 0.3);
@@ -388,7 +386,7 @@ TEST(MoveApex, LeavesNearlyFlatPlacesAndStaysPositive) {
   }
   // The whole star is flat: no place in it is good.
   Star flat{octahedron(0x1p20), {0x1p18, 0x1p18, 0}};
-  for (improve::StarFace& f : flat.faces)
+  for (tets::StarFace& f : flat.faces)
     for (Point3* const p : {&f.a, &f.b, &f.c}) p->z *= 0x1p-18;
   move_checked(best_r, {}, flat);
   move_checked(best_sine, {}, flat);
@@ -410,7 +408,7 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
     Star near = here[i];
     // Moved by an exact vector, so that all differences are the same.
     Star shifted = near;
-    for (improve::StarFace& f : shifted.faces) f = {f.a + far, f.b + far, f.c + far};
+    for (tets::StarFace& f : shifted.faces) f = {f.a + far, f.b + far, f.c + far};
     shifted.apex = near.apex + far;
     EXPECT_EQ(move_checked(usual, {}, near), move_checked(usual, {}, shifted));
     EXPECT_EQ(shifted.apex, near.apex + far);
@@ -422,10 +420,10 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
 TEST(MoveApex, ReachesAGoalWhereASearchDoes) {
   int within_reach = 0, reached = 0;
   for (Star& star : jittered_stars(0.2, 9)) {
-    if (improve::worst_of_star(star.faces, usual, star.apex) >= improve::goal_quality(usual)) continue;
-    if (best_of_grids(star, usual, all_axes) < improve::goal_quality(usual)) continue;
+    if (improve::worst_of_star(star.faces, usual, star.apex) >= tets::goal_quality(usual)) continue;
+    if (best_of_grids(star, usual, all_axes) < tets::goal_quality(usual)) continue;
     ++within_reach;
-    if (move_checked(usual, {}, star)[1] >= improve::goal_quality(usual)) ++reached;
+    if (move_checked(usual, {}, star)[1] >= tets::goal_quality(usual)) ++reached;
   }
   EXPECT_GE(within_reach, 2);
   EXPECT_EQ(reached, within_reach);

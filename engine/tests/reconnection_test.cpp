@@ -5,8 +5,8 @@
 #include <random>
 
 #include "engine/delaunay/delaunay.h"
-#include "engine/improve/loosen_star.h"
 #include "engine/improve/plan_reconnection.h"
+#include "engine/steiner/loosen_star.h"
 #include "engine/tests/improve_checks.h"
 
 namespace ccdt {
@@ -14,7 +14,7 @@ namespace {
 
 using namespace improve_test;
 
-constexpr improve::QualityGoal goal{improve::Objective::r, 1, 1};
+constexpr tets::QualityGoal goal{tets::Objective::r, 1, 1};
 
 /// The Delaunay tetrahedra of random points. Some of their edges are segments, and some of their faces facets.
 Model random_tetrahedra(std::mt19937& random) {
@@ -40,15 +40,15 @@ Model random_tetrahedra(std::mt19937& random) {
 }
 
 /// With bad cells everywhere.
-improve::CellComplex bad_complex(std::mt19937& random) {
-  improve::CellComplex x = complex_of(random_tetrahedra(random), goal);
-  improve::StarLoosener loosener(x);
+tets::CellComplex bad_complex(std::mt19937& random) {
+  tets::CellComplex x = complex_of(random_tetrahedra(random), goal);
+  steiner::StarLoosener loosener(x);
   for (std::uint32_t v = 0; v < x.vertex_count(); v += 3) loosener.loosen(v, 250);
   return x;
 }
 
-bool has_swap(const improve::CellComplex& x, std::uint32_t cell) {
-  improve::Change change;
+bool has_swap(const tets::CellComplex& x, std::uint32_t cell) {
+  tets::Change change;
   for (std::uint32_t edge = 0; edge < 6; ++edge)
     if (plan_edge_removal(x, cell, edge, x.quality(cell), change)) return true;
   for (std::uint32_t face = 0; face < 4; ++face)
@@ -60,10 +60,10 @@ TEST(Reconnection, FillsTheSameSpaceWithBetterCellsEvenWhereNoSwapDoes) {
   std::mt19937 random(1);
   int plans = 0, plans_without_swaps = 0;
   for (int i = 0; i < 30; ++i) {
-    improve::CellComplex x = bad_complex(random);
+    tets::CellComplex x = bad_complex(random);
     const Invariants before = invariants_of(x);
     improve::Reconnection reconnection(x);
-    improve::Change change;
+    tets::Change change;
     for (std::uint32_t c = 0; c < x.cell_count(); ++c) {
       if (x.is_dead(c)) continue;
       const double quality = x.quality(c);
@@ -72,7 +72,7 @@ TEST(Reconnection, FillsTheSameSpaceWithBetterCellsEvenWhereNoSwapDoes) {
       ++plans, plans_without_swaps += !can_swap;
       EXPECT_NE(std::ranges::find(change.old_cells, c), change.old_cells.end());
       EXPECT_TRUE(std::ranges::equal(reconnection.cells(), change.old_cells));
-      for (const improve::NewCell& cell : change.new_cells) EXPECT_GT(cell.quality, quality);
+      for (const tets::NewCell& cell : change.new_cells) EXPECT_GT(cell.quality, quality);
       ASSERT_TRUE(x.all_positive(change));
       apply_change(x, change);
     }
@@ -84,9 +84,9 @@ TEST(Reconnection, FillsTheSameSpaceWithBetterCellsEvenWhereNoSwapDoes) {
 }
 
 TEST(Reconnection, LeavesCellsAsGoodAsAnyAlone) {
-  improve::CellComplex x =
+  tets::CellComplex x =
       complex_of({.points = {{0, 0, 0}, {0, 4, 4}, {4, 0, 4}, {4, 4, 0}}, .cells = {{0, 1, 2, 3}}}, goal);
-  improve::Change change;
+  tets::Change change;
   EXPECT_FALSE(improve::Reconnection(x).plan(0, x.quality(0), change));
 }
 

@@ -15,7 +15,7 @@
 namespace ccdt::test {
 
 struct Star {
-  std::vector<improve::StarFace> faces;
+  std::vector<tets::StarFace> faces;
   Point3 apex;
 };
 

@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "engine/improve/loosen_star.h"
-#include "engine/improve/plan_vertex_removal.h"
-#include "engine/improve/shake_cells.h"
+#include "engine/steiner/loosen_star.h"
+#include "engine/steiner/plan_vertex_removal.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
+#include "engine/tets/shake_cells.h"
 
 namespace ccdt {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using namespace improve_test;
 using namespace mesh_test;
 
-constexpr improve::QualityGoal goal{improve::Objective::r, 1, 1};
+constexpr tets::QualityGoal goal{tets::Objective::r, 1, 1};
 
 /// A segment from 0 to 1 that vertex 2 splits, and tetrahedra in a ring of vertices, from 3 on, around it. Two facets
 /// divide them into two regions.
@@ -48,10 +48,10 @@ Model split_segment_in_ring(std::uint32_t size) {
 TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdge) {
   for (std::uint32_t size = 4; size <= 12; size += 2) {
     SCOPED_TRACE(size);
-    improve::CellComplex x = complex_of(split_segment_in_ring(size), goal);
+    tets::CellComplex x = complex_of(split_segment_in_ring(size), goal);
     const auto volumes = invariants_of(x).sixfold_volumes;
-    improve::Change change;
-    ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+    tets::Change change;
+    ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
     ASSERT_TRUE(x.all_positive(change));
     apply_change(x, change);
     expect_consistent(x);
@@ -76,28 +76,28 @@ TEST(VertexRemoval, MakesNoFaceOnTheHullOfTheCellsThatItReplaces) {
   model.faces = {{0, 3, 2}, {2, 3, 4}, {2, 4, 1}, {0, 2, 5}, {2, 1, 5}};
   model.facet_of_face = {0, 0, 0, 1, 1};
   model.segments = {{0, 2}, {2, 1}};
-  for (const improve::RemovalEffort effort : {improve::RemovalEffort::collapse, improve::RemovalEffort::fill}) {
-    improve::CellComplex x = complex_of(model, goal);
-    improve::Change change;
-    if (!improve::VertexRemoval(x).plan(2, {0, 1}, effort, change)) continue;
+  for (const steiner::RemovalEffort effort : {steiner::RemovalEffort::collapse, steiner::RemovalEffort::fill}) {
+    tets::CellComplex x = complex_of(model, goal);
+    tets::Change change;
+    if (!steiner::VertexRemoval(x).plan(2, {0, 1}, effort, change)) continue;
     apply_change(x, change);
     expect_consistent(x);
     EXPECT_FALSE(x.find_face(0, 3, 4));
   }
-  improve::CellComplex x = complex_of(model, goal);
-  improve::Change change;
-  EXPECT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+  tets::CellComplex x = complex_of(model, goal);
+  tets::Change change;
+  EXPECT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
 }
 
 TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
-  improve::CellComplex x = complex_of(split_segment_in_ring(6), goal);
+  tets::CellComplex x = complex_of(split_segment_in_ring(6), goal);
   mesh::TetMesh mesh;
   mesh.face_markers = {10, 11, 12, 13};
   mesh.face_markers.resize(x.faces().size(), 14);
   mesh.edges = {{0, 1}};
   const std::size_t faces = x.faces().size();
-  improve::Change change;
-  ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+  tets::Change change;
+  ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
   apply_change(x, change);
   EXPECT_EQ(std::move(x).take_mesh(mesh).size(), 8u);
   EXPECT_EQ(mesh.faces.size(), faces - 2);
@@ -119,9 +119,9 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdgeWithoutFacets) {
     model.regions.clear();
     model.faces.clear();
     model.facet_of_face.clear();
-    improve::CellComplex x = complex_of(model, goal);
-    improve::Change change;
-    ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::collapse, change));
+    tets::CellComplex x = complex_of(model, goal);
+    tets::Change change;
+    ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
     apply_change(x, change);
     expect_consistent(x);
     EXPECT_TRUE(x.is_segment(0, 1));
@@ -129,9 +129,9 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdgeWithoutFacets) {
 }
 
 TEST(VertexRemoval, SearchFindsTheSameTetrahedraWhereThereIsOnlyOneWay) {
-  improve::CellComplex x = complex_of(split_segment_in_ring(4), goal);
-  improve::Change change;
-  ASSERT_TRUE(improve::VertexRemoval(x).plan(2, {0, 1}, improve::RemovalEffort::fill, change));
+  tets::CellComplex x = complex_of(split_segment_in_ring(4), goal);
+  tets::Change change;
+  ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::fill, change));
   apply_change(x, change);
   expect_consistent(x);
   EXPECT_TRUE(x.is_segment(0, 1));
@@ -166,11 +166,11 @@ TEST(CellShaker, MakesOnlyBetterCells) {
   std::mt19937 random(3);
   std::size_t count = 0;
   for (int i = 0; i < 20; ++i) {
-    improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
+    tets::CellComplex x = complex_of(split_segment_in_fog(random), goal);
     const auto before = invariants_of(x);
     const double least = worst_quality(x) / 2;
     std::vector<std::uint32_t> made;
-    improve::CellShaker(x).shake(2, 100, least, made);
+    tets::CellShaker(x).shake(2, 100, least, made);
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
     EXPECT_GT(worst_quality(x), least);
@@ -182,10 +182,10 @@ TEST(CellShaker, MakesOnlyBetterCells) {
 TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
   std::mt19937 random(1);
   for (int i = 0; i < 20; ++i) {
-    improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
+    tets::CellComplex x = complex_of(split_segment_in_fog(random), goal);
     const auto before = invariants_of(x);
     const auto cells = cells_of(x);
-    improve::StarLoosener loosener(x);
+    steiner::StarLoosener loosener(x);
     loosener.loosen(2, 250);
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
@@ -202,14 +202,14 @@ TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
 TEST(StarLoosener, LeavesAVertexWithFewerEdges) {
   std::mt19937 random(2);
   for (int i = 0; i < 20; ++i) {
-    improve::CellComplex x = complex_of(split_segment_in_fog(random), goal);
+    tets::CellComplex x = complex_of(split_segment_in_fog(random), goal);
     const auto edges = [&] {
       int count = 0;
       for (std::uint32_t v = 0; v < x.vertex_count(); ++v) count += has_edge(x, 2, v);
       return count;
     };
     const int before = edges();
-    improve::StarLoosener(x).loosen(2, 250);
+    steiner::StarLoosener(x).loosen(2, 250);
     EXPECT_LT(edges(), before);
   }
 }

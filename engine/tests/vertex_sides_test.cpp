@@ -1,4 +1,4 @@
-#include "engine/improve/vertex_sides.h"
+#include "engine/tets/vertex_sides.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace ccdt {
 namespace {
 
-using improve::Corner, improve::Sides, improve::VertexSides;
+using tets::Corner, tets::Sides, tets::VertexSides;
 
 /// Points of a grid of the given number of places in each direction. Few places make many coplanar.
 std::vector<Point3> random_points(std::size_t count, double places, std::mt19937& random) {
@@ -44,7 +44,7 @@ TEST(VertexSides, ForgetThePointsBefore) {
   VertexSides sides;
   sides.find(random_points(VertexSides::most_vertices, 100, random));
   sides.find(std::vector<Point3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
-  EXPECT_EQ(sides.of(0, 1, 2).above, improve::corner_bit(3));
+  EXPECT_EQ(sides.of(0, 1, 2).above, tets::corner_bit(3));
   EXPECT_EQ(sides.of(0, 1, 2).below, 0u);
 }
 

@@ -4,9 +4,9 @@
 #include <random>
 #include <vector>
 
-#include "engine/improve/cell_complex.h"
+#include "engine/tets/cell_complex.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 /// Makes random changes, the same on every run, where no change that is looked for helps: after them, others are
 /// possible.
@@ -32,4 +32,4 @@ class CellShaker {
   std::vector<std::uint32_t> new_cells_;
 };
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -4,29 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/improve/smoothing.h"
+#include "engine/tets/cell_complex.h"
 
 /// Plans of changes that replace cells. They do not change the complex; they write the best change into `change` and
 /// return whether there is one. The quality of the worst new cell must be greater than `least`, which is not less than
-/// that of `cell`. The new cells are not yet tested for exact positivity, except by `plan_insertion`.
-namespace ccdt::improve {
-
-/// The cells that a new vertex replaces, and their hull.
-struct VertexCavity {
-  std::vector<std::uint32_t> cells;
-  std::vector<std::uint32_t> tried;                ///< all cells that were ever in it
-  std::vector<std::array<std::uint32_t, 3>> hull;  ///< corners of its faces, the inside above
-  std::vector<StarFace> faces;                     ///< the same, by their points
-};
-
-/// Working memory of the plans.
-struct PlanScratch {
-  CellMarks marks;
-  std::vector<std::uint32_t> star;
-  std::vector<NewCell> joined;
-  VertexCavity cavity;
-  MoveScratch move;
-};
+/// that of `cell`. The new cells are not yet tested for exact positivity.
+namespace ccdt::tets {
 
 /// The quality of the worst of some cells.
 double worst_of(const std::vector<NewCell>& cells);
@@ -55,14 +38,14 @@ bool plan_edge_removal(const CellComplex& complex, std::uint32_t cell, std::uint
 bool plan_face_removal(const CellComplex& complex, std::uint32_t cell, std::uint32_t face, double least,
                        Change& change);
 
-/// Plans to remove an interior vertex of a cell by collapsing one of the cell's edges onto the other end: the cells
-/// around the vertex without that end are joined to it instead.
-bool plan_collapse(const CellComplex& complex, std::uint32_t cell, double least, PlanScratch& scratch, Change& change);
+/// Kinds of swaps.
+enum class Swap { none, edge_removal, face_removal };
 
-/// Plans to insert a vertex in place of a cell and of those of its neighbors that the new vertex can replace by better
-/// ones: the cavity grows across each face that would make a bad cell with the new vertex. The vertex then moves to the
-/// position where the worst of the new cells is best (after Klingner and Shewchuk 2007). An interior vertex inside the
-/// cavity is removed.
-bool plan_insertion(const CellComplex& complex, std::uint32_t cell, double least, PlanScratch& scratch, Change& change);
+/// Plans the best of all swaps that involve a cell and improve it, and tests that exactly.
+///
+/// \param scratch      working memory
+/// \param space_taken  gets the box around `Change::space_taken` of all plans that were made
+/// \return             its kind; none if there is no such swap
+Swap plan_best_swap(const CellComplex& complex, std::uint32_t cell, Change& scratch, Change& change, Box& space_taken);
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

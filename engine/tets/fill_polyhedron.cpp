@@ -1,4 +1,4 @@
-#include "engine/improve/fill_polyhedron.h"
+#include "engine/tets/fill_polyhedron.h"
 
 #include <algorithm>
 #include <bit>
@@ -8,7 +8,7 @@
 
 #include "engine/numbers/predicates.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 namespace {
 
 /// Nearly all searches that succeed need hardly more steps than there are tetrahedra.
@@ -265,4 +265,4 @@ bool PolyhedronFiller::put(const Triangle& base, Corner apex) {
   return true;
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -5,10 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "engine/improve/cell_complex.h"
-#include "engine/improve/fill_polyhedron.h"
+#include "engine/tets/cell_complex.h"
+#include "engine/tets/fill_polyhedron.h"
 
-namespace ccdt::improve {
+namespace ccdt::steiner {
+
+using tets::CellComplex, tets::CellMarks, tets::Change, tets::PolyhedronFiller;
 
 /// How to remove a vertex, in the order of the effort.
 enum class RemovalEffort {
@@ -91,4 +93,4 @@ class VertexRemoval {
   Change other_;
 };
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::steiner

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "engine/base/point.h"
-#include "engine/improve/cell_complex.h"
-#include "engine/improve/vertex_sides.h"
+#include "engine/tets/cell_complex.h"
+#include "engine/tets/vertex_sides.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 /// Fills a polyhedron with tetrahedra without new vertices: joins its faces to one of its vertices or, if none sees
 /// them all, searches. At each step of the search, a tetrahedron is put onto the face of the front with the fewest
@@ -74,4 +74,4 @@ class PolyhedronFiller {
   int steps_left_ = 0;
 };
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -1,4 +1,4 @@
-#include "engine/improve/cell_complex.h"
+#include "engine/tets/cell_complex.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +11,7 @@
 #include "engine/base/sort_in_buckets.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 namespace {
 
@@ -368,4 +368,4 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
   return points;
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -1,13 +1,15 @@
-#include "engine/improve/remove_steiner_vertices.h"
+#include "engine/steiner/remove_steiner_vertices.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-#include "engine/improve/loosen_star.h"
-#include "engine/improve/plan_vertex_removal.h"
+#include "engine/steiner/loosen_star.h"
+#include "engine/steiner/plan_vertex_removal.h"
 
-namespace ccdt::improve {
+namespace ccdt::steiner {
+
+using tets::no_neighbor;
 namespace {
 
 constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill};
@@ -139,4 +141,4 @@ std::uint64_t remove_steiner_vertices(const plc::Plc& plc, std::uint32_t first_s
   return removed;
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::steiner

@@ -4,9 +4,9 @@
 
 #include "engine/base/point.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/improve/options.h"
+#include "engine/tets/objective.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 /// The goals, as numbers to compare with 1 / r and the least sine.
 struct QualityGoal {
@@ -14,8 +14,6 @@ struct QualityGoal {
   double inverse_r = 0.5;
   double sine = 0.34;
 };
-
-QualityGoal goal_of(const ImproveOptions& options);
 
 /// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m the mean square of the six edges. The apex d
 /// is above abc in a positive tetrahedron.
@@ -39,4 +37,4 @@ double goal_quality(const QualityGoal& goal);
 void compute_qualities(const QualityGoal& goal, std::span<const Point3> points, std::span<const delaunay::Cell> cells,
                        std::span<double> qualities);
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "engine/improve/cell_complex.h"
+#include "engine/tets/cell_complex.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 /// Exactly: would new faces on the boundary of the domain take space outside that is not free?
 ///
@@ -12,4 +12,4 @@ namespace ccdt::improve {
 /// and the old ones: there they have a corner, or all of their corners are those of the old faces.
 bool would_cross(const CellComplex& complex, const Change& change);
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

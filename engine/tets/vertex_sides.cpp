@@ -1,4 +1,4 @@
-#include "engine/improve/vertex_sides.h"
+#include "engine/tets/vertex_sides.h"
 
 #include <bit>
 #include <cstring>
@@ -7,7 +7,7 @@
 #include "engine/numbers/filters.h"
 #include "engine/numbers/predicates.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 using numbers::IntegerLanes, numbers::Lanes;
 
@@ -95,4 +95,4 @@ bool VertexSides::is_around(const std::array<Corner, 3>& triangle, Corner p, Cor
   return divides(r, corner_bit(s) | corner_bit(t)) && divides(s, corner_bit(r) | corner_bit(t));
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -1,15 +1,13 @@
-#include "engine/improve/loosen_star.h"
+#include "engine/steiner/loosen_star.h"
 
 #include <algorithm>
 #include <array>
 
-#include "engine/improve/smoothing.h"
-#include "engine/improve/topological_changes.h"
+#include "engine/tets/swaps.h"
+#include "engine/tets/vertex_star.h"
 
-namespace ccdt::improve {
+namespace ccdt::steiner {
 namespace {
-
-const std::vector<Freedom> nothing_moves;
 
 template <class List>
 void keep_one_of_each(List& list) {
@@ -20,7 +18,7 @@ void keep_one_of_each(List& list) {
 
 }  // namespace
 
-StarLoosener::StarLoosener(CellComplex& x) : x_(x), shaker_(x), swaps_(x, nothing_moves, Improvement::swap) {}
+StarLoosener::StarLoosener(CellComplex& x) : x_(x), shaker_(x) {}
 
 void StarLoosener::loosen(std::uint32_t vertex, int shakes) {
   shaker_.shake(vertex, shakes, 0, new_cells_);
@@ -59,10 +57,10 @@ void StarLoosener::tidy(std::uint32_t vertex) {
   keep_one_of_each(new_cells_);
   for (const std::uint32_t c : new_cells_) {
     if (x_.is_dead(c) || x_.quality(c) >= goal_quality(x_.goal())) continue;
-    swaps_.find(c, false, Effort::usual, step_);
-    if (step_.kind == Step::Kind::change) x_.apply(step_.change, made_);
+    Box space_taken = empty_box;
+    if (plan_best_swap(x_, c, scratch_, change_, space_taken) != tets::Swap::none) x_.apply(change_, made_);
   }
   new_cells_.clear();
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::steiner

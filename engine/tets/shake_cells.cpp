@@ -1,8 +1,8 @@
-#include "engine/improve/shake_cells.h"
+#include "engine/tets/shake_cells.h"
 
-#include "engine/improve/topological_changes.h"
+#include "engine/tets/swaps.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 namespace {
 
 /// The cells to change are found by random walks that are shorter than this.
@@ -35,4 +35,4 @@ std::uint32_t CellShaker::random_cell_near(std::uint32_t vertex) {
   return cell;
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

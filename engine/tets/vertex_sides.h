@@ -8,7 +8,7 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 /// One of a few vertices, by number, and a set of them, by bit.
 using Corner = std::uint8_t;
@@ -55,4 +55,4 @@ class VertexSides {
   std::vector<Sides> sides_;  // in a row for each pair a < b, by the third corner
 };
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

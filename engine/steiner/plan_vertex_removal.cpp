@@ -1,15 +1,17 @@
-#include "engine/improve/plan_vertex_removal.h"
+#include "engine/steiner/plan_vertex_removal.h"
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
-#include "engine/improve/crossing_faces.h"
-#include "engine/improve/smoothing.h"
-#include "engine/improve/topological_changes.h"
 #include "engine/numbers/predicates.h"
+#include "engine/tets/crossing_faces.h"
+#include "engine/tets/swaps.h"
+#include "engine/tets/vertex_star.h"
 
-namespace ccdt::improve {
+namespace ccdt::steiner {
+
+using tets::Cell, tets::SegmentMerge, tets::cell_of, tets::corners_of_face, tets::face_code, tets::no_corners;
 namespace {
 
 /// How many fans of a page are tried.
@@ -202,4 +204,4 @@ bool VertexRemoval::fill_sector(const Sector& sector, Change& change) {
   return filler_.fill(hull_, sector.region, -std::numeric_limits<double>::infinity(), change.new_cells);
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::steiner

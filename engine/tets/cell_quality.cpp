@@ -1,4 +1,4 @@
-#include "engine/improve/cell_quality.h"
+#include "engine/tets/cell_quality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,9 @@
 #include <numbers>
 
 #include "engine/base/count_work.h"
-#include "engine/base/portable_math.h"
 #include "engine/numbers/filters.h"
 
-namespace ccdt::improve {
-
-QualityGoal goal_of(const ImproveOptions& options) {
-  return {options.objective, 1 / options.target_r, portable::sine(to_radians(options.target_dihedral))};
-}
+namespace ccdt::tets {
 
 namespace {
 
@@ -100,4 +95,4 @@ double goal_quality(const QualityGoal& goal) {
   return goal.objective == Objective::dihedral ? goal.sine : 1 + goal.sine;
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -13,10 +13,10 @@
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_axis.h"
-#include "engine/improve/cell_quality.h"
 #include "engine/mesh/tet_mesh.h"
+#include "engine/tets/cell_quality.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 
 using delaunay::Cell, delaunay::cell_of, delaunay::corners_of_face, delaunay::face_code, delaunay::face_of,
     delaunay::ghost_vertex, delaunay::join_faces, delaunay::no_neighbor;
@@ -257,4 +257,4 @@ class CellComplex {
   Cavity cavity_;  // working memory of `apply`
 };
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

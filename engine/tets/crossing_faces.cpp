@@ -1,4 +1,4 @@
-#include "engine/improve/crossing_faces.h"
+#include "engine/tets/crossing_faces.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/integer_points.h"
 
-namespace ccdt::improve {
+namespace ccdt::tets {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
@@ -149,4 +149,4 @@ bool would_cross(const CellComplex& x, const Change& change) {
   });
 }
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::tets

@@ -3,11 +3,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/improve/cell_complex.h"
-#include "engine/improve/find_step.h"
-#include "engine/improve/shake_cells.h"
+#include "engine/tets/cell_complex.h"
+#include "engine/tets/shake_cells.h"
 
-namespace ccdt::improve {
+namespace ccdt::steiner {
+
+using tets::CellComplex, tets::CellMarks, tets::CellShaker, tets::Change;
 
 /// Changes the cells around a vertex that cannot be removed from a segment, so that the next attempt meets other cells.
 /// The changes are random, but the same on every run.
@@ -30,7 +31,6 @@ class StarLoosener {
 
   CellComplex& x_;
   CellShaker shaker_;
-  StepFinder swaps_;
 
   std::vector<std::uint32_t> new_cells_;  ///< since the last `tidy`; some may be dead
 
@@ -40,7 +40,7 @@ class StarLoosener {
   std::vector<std::uint32_t> vertices_;
   std::vector<std::uint32_t> made_;
   Change change_;
-  Step step_;
+  Change scratch_;
 };
 
-}  // namespace ccdt::improve
+}  // namespace ccdt::steiner
