@@ -10,6 +10,7 @@
 #include "baselines/known_meshers.h"
 #include "baselines/mesher_description.h"
 #include "baselines/mesher_input.h"
+#include "baselines/tests/plain_options.h"
 #include "baselines/tests/shapes.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
@@ -17,10 +18,6 @@
 
 namespace ccdt {
 namespace {
-
-MeshOptions unimproved(double edge_length = 0) {
-  return {.edge_length = edge_length, .improve = {.improvement = Improvement::none}};
-}
 
 /// A mesher of a shell script, which finds the mesh of a cube beside itself.
 class ScriptMesher : public testing::Test {
@@ -158,8 +155,6 @@ TEST_F(ScriptMesher, RefusesWhatItsFormatCannotHold) {
   description_.input_format = "poly";
   EXPECT_EQ(run(plc).result.counts.tetrahedra, 6u);
 }
-
-const MeshOptions bare = {.lattice = Lattice::none};
 
 std::string described(const std::string& name) {
   return std::string(DESCRIBED_FOLDER) + "/" + name + ".json";

@@ -73,9 +73,11 @@ TEST(EffectiveOptions, WriteEqualNumbersAndNamesAlike) {
 }
 
 TEST(EffectiveOptions, WithoutInteriorPointsAreThoseOfTheSurfaceAndOfImprovement) {
-  const NamedOptions bare = {{"lattice", "none"}};
-  EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "none"}, {"edge-length", "2"}, {"grading", "1"}}), bare);
-  EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "none"}, {"improve", "none"}, {"target-r", "3"}}), bare);
+  const NamedOptions no_lattice = {{"lattice", "none"}};
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "none"}, {"edge-length", "2"}, {"grading", "1"}}),
+            no_lattice);
+  EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "none"}, {"improve", "none"}, {"target-r", "3"}}),
+            no_lattice);
   EXPECT_EQ(effective_options(ccdt_mesher(), {{"lattice", "none"}, {"improve", "all"}}),
             (NamedOptions{{"improve", "all"}, {"lattice", "none"}}));
   const NamedOptions remeshed = {{"edge-length", "2"}, {"lattice", "none"}, {"surface", "remesh"}};

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "baselines/mesher.h"
+#include "baselines/tests/plain_options.h"
 #include "baselines/tests/shapes.h"
 #include "engine/base/errors.h"
 
@@ -27,12 +28,6 @@ bool has(std::string_view name) {
 
 baselines::MesherRun run(std::string_view name, const InputPlc& plc, const MeshOptions& options) {
   return baselines::mesher(name).run(plc, options, {});
-}
-
-const MeshOptions bare = {.lattice = Lattice::none};
-
-MeshOptions unimproved(double edge_length = 0) {
-  return {.edge_length = edge_length, .improve = {.improvement = Improvement::none}};
 }
 
 TEST(Meshers, OursIsFirst) {

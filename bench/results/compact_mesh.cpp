@@ -36,7 +36,7 @@ constexpr std::array<std::array<std::uint32_t, 3>, 4> faces = {{{1, 2, 3}, {0, 3
 
 enum Step : std::uint8_t { nothing_new, new_vertex, known_vertex };
 
-using Cell = std::array<std::uint32_t, 4>;
+using Tetrahedron = std::array<std::uint32_t, 4>;
 
 /// The output.
 struct Walk {
@@ -45,7 +45,7 @@ struct Walk {
 };
 
 /// Across each face of each cell, the cell beyond it; `none` on the boundary.
-std::vector<std::uint32_t> neighbors_of(std::span<const Cell> cells) {
+std::vector<std::uint32_t> neighbors_of(std::span<const Tetrahedron> cells) {
   struct Hash {
     std::size_t operator()(const std::array<std::uint32_t, 3>& f) const {
       return (f[0] * std::size_t{0x9e3779b97f4a7c15} + f[1]) * std::size_t{0xff51afd7ed558ccd} + f[2];
@@ -54,7 +54,7 @@ std::vector<std::uint32_t> neighbors_of(std::span<const Cell> cells) {
   std::vector<std::uint32_t> neighbors(4 * cells.size(), none);
   std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, Hash> open;
   for (std::uint32_t face = 0; face < neighbors.size(); ++face) {
-    const Cell& cell = cells[face / 4];
+    const Tetrahedron& cell = cells[face / 4];
     std::array<std::uint32_t, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i) corners[i] = cell[faces[face % 4][i]];
     std::ranges::sort(corners);
@@ -72,7 +72,7 @@ class Edges {
  public:
   explicit Edges(std::size_t vertices) : joined_(vertices), corners_(vertices, 0) {}
 
-  void join_all(const Cell& cell) {
+  void join_all(const Tetrahedron& cell) {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i + 1; j < 4; ++j) {
         if (std::ranges::find(joined_[cell[i]], cell[j]) != joined_[cell[i]].end()) continue;
@@ -107,7 +107,7 @@ class Edges {
 /// Walks over the mesh; see above.
 class Walker {
  public:
-  Walker(std::span<const Cell> cells, std::size_t vertices)
+  Walker(std::span<const Tetrahedron> cells, std::size_t vertices)
       : cells_(cells),
         neighbors_(neighbors_of(cells)),
         numbers_(vertices, none),
@@ -130,7 +130,7 @@ class Walker {
  private:
   struct Met {
     std::uint32_t cell, from;
-    Cell corners;  ///< their numbers in the mesh, in our order
+    Tetrahedron corners;  ///< their numbers in the mesh, in our order
   };
 
   bool meet_vertex(std::uint32_t vertex) {
@@ -140,11 +140,11 @@ class Walker {
     return true;
   }
 
-  void meet(std::uint32_t cell, const Cell& corners, std::uint32_t from) {
+  void meet(std::uint32_t cell, const Tetrahedron& corners, std::uint32_t from) {
     is_met_[cell] = true;
     met_.push_back({cell, from, corners});
     walk_.cells.push_back(cell);
-    Cell numbers{};
+    Tetrahedron numbers{};
     for (std::size_t i = 0; i < 4; ++i) numbers[i] = numbers_[corners[i]];
     edges_.join_all(numbers);
   }
@@ -167,7 +167,7 @@ class Walker {
         walk_.steps.push_back(nothing_new);
         continue;
       }
-      Cell corners = {met.corners[faces[i][0]], met.corners[faces[i][1]], met.corners[faces[i][2]], none};
+      Tetrahedron corners = {met.corners[faces[i][0]], met.corners[faces[i][1]], met.corners[faces[i][2]], none};
       const std::span<const std::uint32_t, 3> face(corners.data(), 3);
       corners[3] =
           *std::ranges::find_if(cells_[cell], [&](auto v) { return std::ranges::find(face, v) == face.end(); });
@@ -176,7 +176,7 @@ class Walker {
     }
   }
 
-  void write_apex(const Cell& corners, std::uint32_t apex_before) {
+  void write_apex(const Tetrahedron& corners, std::uint32_t apex_before) {
     if (meet_vertex(corners[3])) {
       walk_.steps.push_back(new_vertex);
       return;
@@ -188,7 +188,7 @@ class Walker {
     if (rank == no_rank) write_number(numbers_[corners[3]]);
   }
 
-  std::span<const Cell> cells_;
+  std::span<const Tetrahedron> cells_;
   std::vector<std::uint32_t> neighbors_, numbers_;
   std::vector<bool> is_met_;
   Edges edges_;
@@ -263,7 +263,7 @@ bench::Json compact_mesh(const bench::Json& kept) {
   const auto points = numbers_of<float>(kept.at("points"));
   const auto corners = numbers_of<std::uint32_t>(kept.at("cells"));
   const auto regions = numbers_of<std::int32_t>(kept.at("regions"));
-  std::vector<Cell> cells(corners.size() / 4);
+  std::vector<Tetrahedron> cells(corners.size() / 4);
   for (std::size_t i = 0; i < corners.size(); ++i) cells[i / 4][i % 4] = corners[i];
   const Walk walk = Walker(cells, points.size() / 3).walk();
 

@@ -12,7 +12,7 @@
 namespace ccdt {
 namespace {
 
-results::ExperimentResult example() {
+results::ExperimentResult example_result() {
   results::ExperimentResult result{.name = "fig8", .title = "Fig. 8", .section = "6"};
   result.how.runs = 5;
   result.how.tetrahedra = 10000;
@@ -35,7 +35,7 @@ results::ExperimentResult example() {
 }
 
 TEST(ExperimentResult, ReadsBackFromItsJson) {
-  const std::string text = results::to_json(example());
+  const std::string text = results::to_json(example_result());
   EXPECT_EQ(results::to_json(results::experiment_result_from_json(text)), text);
   const results::ExperimentResult read = results::experiment_result_from_json(text);
   const results::ResultTable& table = *results::find_table(read, "points");
@@ -51,7 +51,7 @@ TEST(ExperimentResult, ReadsBackFromItsJson) {
 }
 
 TEST(ExperimentResult, WritesWholeNumbersAsSuchAndInfiniteOnesAsNull) {
-  results::ExperimentResult result = example();
+  results::ExperimentResult result = example_result();
   result.tables[0].rows[1].cells[1] = std::numeric_limits<double>::infinity();
   const auto json = nlohmann::json::parse(results::to_json(result));
   EXPECT_EQ(json["tables"][0]["rows"][0]["values"]["count"].dump(), "1234567");
@@ -59,7 +59,7 @@ TEST(ExperimentResult, WritesWholeNumbersAsSuchAndInfiniteOnesAsNull) {
 }
 
 TEST(ExperimentResult, WritesAndReadsAnEstimateWithoutAnInterval) {
-  results::ExperimentResult result = example();
+  results::ExperimentResult result = example_result();
   result.tables[0].rows[0].cells[2] = bench::without_interval(1.5);
   const std::string text = results::to_json(result);
   const auto seconds = nlohmann::json::parse(text)["tables"][0]["rows"][0]["values"]["seconds"];
@@ -77,7 +77,7 @@ TEST(ExperimentResult, RefusesOtherJson) {
 }
 
 TEST(ResultTable, DoesNotGuessColumns) {
-  const results::ExperimentResult result = example();
+  const results::ExperimentResult result = example_result();
   EXPECT_THROW(results::column_of(result.tables[0], "second"), std::out_of_range);
 }
 

@@ -14,7 +14,7 @@
 namespace ccdt {
 namespace {
 
-TetMesh example() {
+TetMesh example_mesh() {
   return mesh_plc(shapes::cube_with_grid(4), {.edge_length = 0.2}).mesh;
 }
 
@@ -26,7 +26,7 @@ void shuffle(const std::vector<std::size_t>& order, std::vector<Type>& values) {
 }
 
 TEST(Fingerprint, DoesNotDependOnTheOrderOfTetrahedraAndTheirCorners) {
-  TetMesh mesh = example();
+  TetMesh mesh = example_mesh();
   for (std::size_t t = 0; t < mesh.regions.size(); ++t) mesh.regions[t] = t % 3 == 0 ? 7 : -1;
   const std::string before = bench::fingerprint(mesh);
   EXPECT_EQ(before.size(), 32u);
@@ -43,7 +43,7 @@ TEST(Fingerprint, DoesNotDependOnTheOrderOfTetrahedraAndTheirCorners) {
 }
 
 TEST(Fingerprint, ChangesWithEveryPartOfTheMesh) {
-  const TetMesh mesh = example();
+  const TetMesh mesh = example_mesh();
   std::set<std::string> seen = {bench::fingerprint(mesh)};
   const auto expect_new = [&](const TetMesh& changed, const char* what) {
     EXPECT_TRUE(seen.insert(bench::fingerprint(changed)).second) << what;

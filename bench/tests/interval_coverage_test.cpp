@@ -20,7 +20,7 @@ using Random = std::mt19937_64;
 using bench::Estimate;
 using cases::Repetitions;
 
-constexpr int trials = 5000;  // the standard deviation of a coverage of 95% is 0.31%
+constexpr int simulations = 5000;  // the standard deviation of a coverage of 95% is 0.31%
 constexpr double least_coverage = 0.94;
 
 double normal(Random& random) {
@@ -119,7 +119,7 @@ bool covers(const Estimate& estimate, double truth) {
 }
 
 double share(int part) {
-  return static_cast<double>(part) / trials;
+  return static_cast<double>(part) / simulations;
 }
 
 double coverage_of_median(const Process& process, const Repetitions& repetitions) {
@@ -127,7 +127,7 @@ double coverage_of_median(const Process& process, const Repetitions& repetitions
   std::map<std::size_t, double> truths;  // by the number of runs
   const std::vector<int> looks = looks_of(repetitions);
   int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
+  for (int trial = 0; trial < simulations; ++trial) {
     const auto samples = samples_of(repetitions, [&](int run) { return process.draw(random, run); });
     double& truth = truths[samples.size()];
     if (truth == 0) truth = median_of(process, samples.size());
@@ -161,7 +161,7 @@ double coverage_of_ratio(const Pair& pair, const Repetitions& repetitions) {
   const std::vector<int> looks = looks_of(repetitions);
   const double truth = median_ratio_of(pair);
   int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
+  for (int trial = 0; trial < simulations; ++trial) {
     // The slower machine is felt by both in the same round.
     const auto above = samples_of(repetitions, [&](int run) { return 2 * pair.draw(*pair.above, random, run); });
     const auto below = samples_of(repetitions, [&](int run) { return pair.draw(*pair.below, random, run); });
@@ -205,7 +205,7 @@ double coverage_without_looks(const Process& process, const std::vector<int>& lo
   Random random(4);
   const double truth = median_of(process, 1);
   int covered = 0;
-  for (int trial = 0; trial < trials; ++trial) {
+  for (int trial = 0; trial < simulations; ++trial) {
     std::vector<double> samples;
     Estimate estimate = bench::without_interval(0);
     while (samples.size() < 60 && (samples.empty() || bench::relative_spread(estimate) > 0.05)) {

@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-bench::RunRecord example() {
+bench::RunRecord example_record() {
   bench::RunRecord record;
   record.mesher = {"ccdt", "0.1.0", "abc"};
   record.input = {"cube.off", std::string(64, '0'), 8, 12, 0};
@@ -43,7 +43,7 @@ bench::RunRecord example() {
 }
 
 TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
-  const Json json = Json::parse(bench::to_json(example()));
+  const Json json = Json::parse(bench::to_json(example_record()));
   EXPECT_EQ(json["schema"], "ccdt.run/1");
   for (const char* pointer : {"/mesher/name",
                               "/mesher/version",
@@ -107,7 +107,7 @@ TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
 }
 
 TEST(RunRecord, ReadsBackBitForBit) {
-  const std::string text = bench::to_json(example());
+  const std::string text = bench::to_json(example_record());
   const bench::RunRecord back = bench::run_record_from_json(text);
   EXPECT_EQ(bench::to_json(back), text);
   EXPECT_EQ(back.quality.volume, 1.0 / 3);
@@ -116,20 +116,20 @@ TEST(RunRecord, ReadsBackBitForBit) {
 }
 
 TEST(RunRecord, KeepsTheSplitsOfEachLevelAndTheDroppedPoints) {
-  const bench::RunRecord back = bench::run_record_from_json(bench::to_json(example()));
+  const bench::RunRecord back = bench::run_record_from_json(bench::to_json(example_record()));
   EXPECT_EQ(back.counts.splits_by_level, (std::vector<std::uint64_t>{2, 1}));
   EXPECT_EQ(back.counts.dropped_interior_vertices, 4u);
 }
 
 TEST(RunRecord, OfOlderProgramsMayLackTheCountsOfSplits) {
-  Json json = Json::parse(bench::to_json(example()));
+  Json json = Json::parse(bench::to_json(example_record()));
   json["counts"].erase("splits_by_level");
   json["counts"].erase("dropped_interior_vertices");
   EXPECT_TRUE(bench::run_record_from_json(json.dump()).counts.splits_by_level.empty());
 }
 
 TEST(RunRecord, OfAnotherMesherHasNoCountsOfSegments) {
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   record.counts.segments.reset();
   const Json json = Json::parse(bench::to_json(record));
   EXPECT_FALSE(json["counts"].contains("segments"));
@@ -137,7 +137,7 @@ TEST(RunRecord, OfAnotherMesherHasNoCountsOfSegments) {
 }
 
 TEST(RunRecord, HasTheWorkOfEachStageThatIsNotZero) {
-  const bench::RunRecord record = example();
+  const bench::RunRecord record = example_record();
   const Json json = Json::parse(bench::to_json(record));
   EXPECT_EQ(json["work"], Json::parse(R"({"delaunay": {"cells_created": 17, "largest_cavity": 9},
                                           "remesh": {"exact_evaluations": 3}})"));
@@ -148,7 +148,7 @@ TEST(RunRecord, HasTheWorkOfEachStageThatIsNotZero) {
 }
 
 TEST(RunRecord, OfOtherMeshersHasNoWork) {
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   record.work = {};
   record.remesh_work = {};
   const Json json = Json::parse(bench::to_json(record));
@@ -157,14 +157,14 @@ TEST(RunRecord, OfOtherMeshersHasNoWork) {
 }
 
 TEST(RunRecord, OfOlderProgramsMayLackTheRatiosOfOtherTools) {
-  Json json = Json::parse(bench::to_json(example()));
+  Json json = Json::parse(bench::to_json(example_record()));
   json["quality"].erase("aspect_ratio");
   json["quality"].erase("radius_edge_ratio");
   EXPECT_EQ(bench::run_record_from_json(json.dump()).quality.aspect_ratio.max, 0);
 }
 
 TEST(RunRecord, OfAFailureKeepsStatusAndReason) {
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   record.status = baselines::RunStatus::timeout;
   record.reason = "stopped at the limit of 5 s";
   const bench::RunRecord back = bench::run_record_from_json(bench::to_json(record));
@@ -173,7 +173,7 @@ TEST(RunRecord, OfAFailureKeepsStatusAndReason) {
 }
 
 TEST(RunRecord, OfAFailureHasItsKindAndOthersHaveNone) {
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   EXPECT_FALSE(Json::parse(bench::to_json(record)).contains("kind"));
   record.set_failure(baselines::FailureKind::out_of_memory, "too much");
   EXPECT_EQ(record.status, baselines::RunStatus::out_of_memory);
@@ -184,7 +184,7 @@ TEST(RunRecord, OfAProcessThatWasKilledSaysSoAndThatOfOneThatFailedKeepsItsWords
   baselines::ProcessResult ended;
   ended.kind = baselines::FailureKind::timeout;
   ended.signal = 9;
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   record.set_failure(baselines::FailureKind::crashed, "the process ended before its run did");
   bench::note_end(ended, record);
   EXPECT_EQ(record.kind, baselines::FailureKind::timeout);
@@ -194,13 +194,13 @@ TEST(RunRecord, OfAProcessThatWasKilledSaysSoAndThatOfOneThatFailedKeepsItsWords
   record.set_failure(baselines::FailureKind::crashed, "the mesher's program crashed");
   bench::note_end(ended, record);
   EXPECT_EQ(record.kind, baselines::FailureKind::crashed);
-  record = example();
+  record = example_record();
   bench::note_end(ended, record);
   EXPECT_EQ(record.kind, baselines::FailureKind::refused) << "it did not say so itself";
 }
 
 TEST(RunRecord, OfASweepHasItsCaseItsNumberAndWhatTheVerifierFound) {
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   const Json alone = Json::parse(bench::to_json(record));
   for (const char* name : {"case", "number", "verification", "mesh_fingerprint"}) EXPECT_FALSE(alone.contains(name));
   record.case_id = "0123456789abcdef";
@@ -221,7 +221,7 @@ TEST(RunRecord, OfASweepHasItsCaseItsNumberAndWhatTheVerifierFound) {
 }
 
 TEST(RunRecord, SurvivesFileNamesThatAreNoUtf8) {
-  bench::RunRecord record = example();
+  bench::RunRecord record = example_record();
   record.input.name = "caf\xe9.stl";
   EXPECT_TRUE(Json::accept(bench::to_json(record)));
 }

@@ -14,17 +14,17 @@
 namespace ccdt::testing {
 namespace {
 
-struct Case {
+struct SizedSolid {
   std::string_view name;
   double edge_length;
   long euler;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
+void PrintTo(const SizedSolid& c, std::ostream* out) {
   *out << c.name << " at " << c.edge_length;
 }
 
-class SolidMesh : public ::testing::TestWithParam<Case> {
+class SolidMesh : public ::testing::TestWithParam<SizedSolid> {
  protected:
   plc::InputPlc input = models::make_solid(GetParam().name, GetParam().edge_length);
 };
@@ -71,15 +71,16 @@ TEST_P(SolidMesh, NoAngleIsVerySmall) {
   EXPECT_GT(quantile(angles, 0.5), 30);
 }
 
-INSTANTIATE_TEST_SUITE_P(Solids, SolidMesh,
-                         ::testing::Values(Case{"piston", 16, -2}, Case{"piston", 12, -2}, Case{"piston", 4, -2},
-                                           Case{"piston", 1.5, -2}, Case{"bracket", 16, -6}, Case{"bracket", 12, -6},
-                                           Case{"bracket", 4, -6}, Case{"bracket", 1.5, -6},
-                                           Case{"stepping-pole", 12, 2}, Case{"stepping-pole", 6, 2},
-                                           Case{"stepping-pole", 3, 2}, Case{"stepping-pole", 1, 2}, Case{"cube", 1, 2},
-                                           Case{"cube", 0.3, 2}, Case{"cube", 1.0 / 60, 2}, Case{"sphere", 1.2, 2},
-                                           Case{"sphere", 0.3, 2}, Case{"sphere", 0.03, 2}, Case{"torus", 0.5, 0},
-                                           Case{"torus", 0.2, 0}, Case{"torus", 0.03, 0}, Case{"schoenhardt", 0, 2}));
+INSTANTIATE_TEST_SUITE_P(
+    Solids, SolidMesh,
+    ::testing::Values(SizedSolid{"piston", 16, -2}, SizedSolid{"piston", 12, -2}, SizedSolid{"piston", 4, -2},
+                      SizedSolid{"piston", 1.5, -2}, SizedSolid{"bracket", 16, -6}, SizedSolid{"bracket", 12, -6},
+                      SizedSolid{"bracket", 4, -6}, SizedSolid{"bracket", 1.5, -6}, SizedSolid{"stepping-pole", 12, 2},
+                      SizedSolid{"stepping-pole", 6, 2}, SizedSolid{"stepping-pole", 3, 2},
+                      SizedSolid{"stepping-pole", 1, 2}, SizedSolid{"cube", 1, 2}, SizedSolid{"cube", 0.3, 2},
+                      SizedSolid{"cube", 1.0 / 60, 2}, SizedSolid{"sphere", 1.2, 2}, SizedSolid{"sphere", 0.3, 2},
+                      SizedSolid{"sphere", 0.03, 2}, SizedSolid{"torus", 0.5, 0}, SizedSolid{"torus", 0.2, 0},
+                      SizedSolid{"torus", 0.03, 0}, SizedSolid{"schoenhardt", 0, 2}));
 
 // Where the edge length resolves the features, the mesh is that of a good surface mesher.
 class ResolvedSolid : public SolidMesh {};
@@ -103,12 +104,14 @@ TEST_P(ResolvedSolid, EdgesAreOfEvenLength) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Solids, ResolvedSolid,
-                         ::testing::Values(Case{"piston", 4, -2}, Case{"piston", 2, -2}, Case{"piston", 1, -2},
-                                           Case{"bracket", 4, -6}, Case{"bracket", 2, -6}, Case{"bracket", 1, -6},
-                                           Case{"stepping-pole", 3, 2}, Case{"stepping-pole", 1.5, 2},
-                                           Case{"stepping-pole", 0.6, 2}, Case{"cube", 0.1, 2}, Case{"cube", 0.02, 2},
-                                           Case{"sphere", 0.3, 2}, Case{"sphere", 0.02, 2}, Case{"torus", 0.2, 0},
-                                           Case{"torus", 0.02, 0}));
+                         ::testing::Values(SizedSolid{"piston", 4, -2}, SizedSolid{"piston", 2, -2},
+                                           SizedSolid{"piston", 1, -2}, SizedSolid{"bracket", 4, -6},
+                                           SizedSolid{"bracket", 2, -6}, SizedSolid{"bracket", 1, -6},
+                                           SizedSolid{"stepping-pole", 3, 2}, SizedSolid{"stepping-pole", 1.5, 2},
+                                           SizedSolid{"stepping-pole", 0.6, 2}, SizedSolid{"cube", 0.1, 2},
+                                           SizedSolid{"cube", 0.02, 2}, SizedSolid{"sphere", 0.3, 2},
+                                           SizedSolid{"sphere", 0.02, 2}, SizedSolid{"torus", 0.2, 0},
+                                           SizedSolid{"torus", 0.02, 0}));
 
 TEST(Solids, RangeFromHundredsToTwoHundredThousandVertices) {
   for (const auto& [name, finest] : {std::pair{"piston", 0.52}, {"bracket", 0.36}, {"stepping-pole", 0.34}}) {

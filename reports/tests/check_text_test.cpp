@@ -10,7 +10,7 @@ namespace {
 
 using repair::FaultKind;
 
-repair::Diagnosis example() {
+repair::Diagnosis example_diagnosis() {
   const Place hole{.points = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}},
       crossing{.points = {{0.5, 0.25, 0}}, .facets = {3, 12}};
   repair::Diagnosis diagnosis{.vertices = 8, .facets = 11};
@@ -27,7 +27,7 @@ repair::Diagnosis example() {
 
 TEST(CheckText, HasALineForEachFaultAndForItsFirstPlaces) {
   const auto lines = [](std::size_t most_places) {
-    const std::string text = reports::to_terminal(example(), most_places);
+    const std::string text = reports::to_terminal(example_diagnosis(), most_places);
     return std::ranges::count(text, '\n');
   };
   EXPECT_EQ(lines(0), 3);
@@ -36,7 +36,7 @@ TEST(CheckText, HasALineForEachFaultAndForItsFirstPlaces) {
 }
 
 TEST(CheckText, NamesFacetsAndCoordinates) {
-  const std::string text = reports::to_terminal(example(), 1);
+  const std::string text = reports::to_terminal(example_diagnosis(), 1);
   for (const char* data : {"1,200", "3 edges", "3, 12", "(0.5, 0.25, 0)", "(1, 0, 1)"})
     EXPECT_NE(text.find(data), std::string::npos) << text;
 }
@@ -45,11 +45,11 @@ TEST(CheckText, SaysWhatAValidInputEncloses) {
   const std::string words = reports::in_few_words({.vertices = 8, .facets = 12, .regions = 1, .volume = 0.5});
   EXPECT_NE(words.find("12"), std::string::npos) << words;
   EXPECT_NE(words.find("0.5"), std::string::npos) << words;
-  EXPECT_NE(reports::in_few_words(example()), words);
+  EXPECT_NE(reports::in_few_words(example_diagnosis()), words);
 }
 
 TEST(CheckText, InJsonListsFaultsAndWhatWasDone) {
-  reports::CheckReport report{.input = "a.stl", .diagnosis = example()};
+  reports::CheckReport report{.input = "a.stl", .diagnosis = example_diagnosis()};
   const auto json = [&] { return nlohmann::json::parse(reports::to_json(report)); };
   EXPECT_EQ(json()["schema"], "ccdt.check/1");
   EXPECT_EQ(json()["valid"], false);

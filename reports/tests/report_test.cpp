@@ -115,17 +115,17 @@ TEST_F(ReportFolder, LetsNoTextEndOrOpenAScriptOfThePage) {
   EXPECT_EQ(bench::Json::parse(page.substr(at, page.find('<', at) - at))["title"], report.title);
 }
 
-const results::ResultTable& table(const reports::Report& report, const std::string& name) {
+const results::ResultTable& table_of(const reports::Report& report, const std::string& name) {
   return *results::find_table(report.sections.at(0).result, name);
 }
 
 TEST_F(ReportFolder, ComparedWithItselfIsTheSame) {
   fill("b", 1.05, 100);
   const reports::Report report = reports::compare_reports(folder("a"), folder("b"), folder("b") / "comparison", {});
-  EXPECT_TRUE(table(report, "differences").rows.empty());
-  ASSERT_EQ(table(report, "times").rows.size(), 1u);
-  EXPECT_EQ(results::text_in(table(report, "times"), table(report, "times").rows[0], "within"), "yes");
-  EXPECT_NEAR(results::number_in(table(report, "times"), table(report, "times").rows[0], "ratio"), 1.05, 1e-12);
+  EXPECT_TRUE(table_of(report, "differences").rows.empty());
+  ASSERT_EQ(table_of(report, "times").rows.size(), 1u);
+  EXPECT_EQ(results::text_in(table_of(report, "times"), table_of(report, "times").rows[0], "within"), "yes");
+  EXPECT_NEAR(results::number_in(table_of(report, "times"), table_of(report, "times").rows[0], "ratio"), 1.05, 1e-12);
   EXPECT_TRUE(report.sections[0].result.is_good);
   EXPECT_EQ(report.sections[0].result.findings[0].find("1 of 1 "), 0u) << report.sections[0].result.findings[0];
   EXPECT_EQ(report.runs.at("../runs/x-1.json").command.substr(0, 9), "cd .. && ");
@@ -134,9 +134,10 @@ TEST_F(ReportFolder, ComparedWithItselfIsTheSame) {
 TEST_F(ReportFolder, ComparedWithAnotherSaysWhatDiffers) {
   fill("b", 1.2, 101);
   const reports::Report report = reports::compare_reports(folder("a"), folder("b"), folder("b") / "comparison", {});
-  ASSERT_EQ(table(report, "differences").rows.size(), 1u);
-  EXPECT_EQ(results::number_in(table(report, "differences"), table(report, "differences").rows[0], "second"), 101);
-  EXPECT_EQ(results::text_in(table(report, "times"), table(report, "times").rows[0], "within"), "no");
+  ASSERT_EQ(table_of(report, "differences").rows.size(), 1u);
+  EXPECT_EQ(results::number_in(table_of(report, "differences"), table_of(report, "differences").rows[0], "second"),
+            101);
+  EXPECT_EQ(results::text_in(table_of(report, "times"), table_of(report, "times").rows[0], "within"), "no");
   EXPECT_FALSE(report.sections[0].result.is_good);
 }
 

@@ -5,7 +5,7 @@
 namespace ccdt {
 namespace {
 
-results::ResultTable example() {
+results::ResultTable example_table() {
   results::ResultTable table{"times",
                              "Seconds & more",
                              {{"model", "model", results::ColumnKind::label},
@@ -18,7 +18,7 @@ results::ResultTable example() {
 }
 
 TEST(ResultText, LeavesOutEmptyColumnsAndRoundsForPeople) {
-  const reports::TextTable text = reports::text_table(example());
+  const reports::TextTable text = reports::text_table(example_table());
   ASSERT_EQ(text.size(), 3u);
   EXPECT_EQ(text[0], (std::vector<std::string>{"model", "tetrahedra", "seconds (s)"}));
   EXPECT_EQ(text[1], (std::vector<std::string>{"piston", "1,234,567", "1.50 [1.25, 1.75]"}));
@@ -26,14 +26,14 @@ TEST(ResultText, LeavesOutEmptyColumnsAndRoundsForPeople) {
 }
 
 TEST(ResultText, GivesAllDigitsAndIntervalsAsCsv) {
-  EXPECT_EQ(reports::to_csv(example()),
+  EXPECT_EQ(reports::to_csv(example_table()),
             "model,count,seconds,seconds_low,seconds_high,reason\r\n"
             "piston,1234567,1.5,1.25,1.75,\r\n"
             "\"a, \"\"b\"\" 50%\",0.1,,,,\r\n");
 }
 
 TEST(ResultText, EscapesWhatLatexWouldTakeForItsOwn) {
-  const std::string text = reports::to_latex(example(), "table1");
+  const std::string text = reports::to_latex(example_table(), "table1");
   EXPECT_NE(text.find("\\caption{Seconds \\& more}"), std::string::npos) << text;
   EXPECT_NE(text.find("a, \"b\" 50\\%"), std::string::npos) << text;
   EXPECT_NE(text.find("\\begin{tabular}{lrr}"), std::string::npos) << text;
@@ -43,7 +43,7 @@ TEST(ResultText, EscapesWhatLatexWouldTakeForItsOwn) {
 
 TEST(ResultText, ShowsFindingsProblemsAndDefinitions) {
   results::ExperimentResult result{.name = "table1", .title = "Table 1"};
-  result.tables = {example()};
+  result.tables = {example_table()};
   result.findings = {"a finding"};
   result.problems = {"a problem"};
   result.definitions = {"a definition"};

@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* vertices = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
+constexpr const char* corners_of_cube = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n";
 constexpr const char* bottom = "3 0 2 1\n3 1 2 3\n";
 constexpr const char* sides = "3 0 1 4\n3 1 5 4\n3 2 6 3\n3 3 6 7\n3 0 4 2\n3 2 4 6\n3 1 3 5\n3 3 7 5\n";
 constexpr const char* top = "3 4 5 6\n3 5 7 6\n";
@@ -16,7 +16,7 @@ constexpr const char* top = "3 4 5 6\n3 5 7 6\n";
 class CheckCommand : public Program {
  protected:
   void write_cube(const std::string& name, int facets, const std::string& triangles) const {
-    write(name, "OFF\n8 " + std::to_string(facets) + " 0\n" + vertices + triangles);
+    write(name, "OFF\n8 " + std::to_string(facets) + " 0\n" + corners_of_cube + triangles);
   }
   Json report() const { return Json::parse(text_of(work() / "report.json")); }
 };
