@@ -30,6 +30,7 @@ struct Index {
 using VertexId = Index<struct VertexTag>;
 using FacetId = Index<struct FacetTag>;
 using RegionId = Index<struct RegionTag>;
+using CellId = Index<struct CellTag>;
 
 }  // namespace ccdt
 

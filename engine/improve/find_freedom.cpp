@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "engine/base/hash_table.h"
+#include "engine/base/index.h"
 #include "engine/base/simplex_map.h"
 #include "engine/numbers/predicates.h"
 #include "engine/plc/plane_steps.h"
@@ -12,20 +13,18 @@
 namespace ccdt::improve {
 namespace {
 
-constexpr std::uint32_t none = 0xFFFFFFFFu;
-
 Freedom along_line(const Point3& a, const Point3& b) {
   return {1, plc::shortest_step(a, b), {}};
 }
 
 /// The facets and segments around a vertex of the PLC.
 struct VertexSurroundings {
-  std::uint32_t facet = none;  ///< the first
+  FacetId facet;  ///< the first
   bool several_facets = false;
   bool flat = true;      ///< all facets are exactly flat
   bool crossed = false;  ///< a facet does not contain both of the first two segments
   std::uint32_t segment_count = 0;
-  std::array<std::uint32_t, 2> segments = {none, none};  ///< the first two
+  std::array<std::uint32_t, 2> segments{};  ///< the first two
 };
 
 class FreedomFinder {
@@ -76,7 +75,7 @@ class FreedomFinder {
     for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) {
       const plc::Facet& facet = plc_.facets[f];
       for (const auto& t : plc_.triangles_of(facet))
-        for (const VertexId v : t) look_at(f, t, v);
+        for (const VertexId v : t) look_at(FacetId(f), t, v);
       if (!facet.exactly_flat) forbid_edges(facet);
     }
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s)
@@ -89,14 +88,11 @@ class FreedomFinder {
         if (const std::uint32_t* const segment = segment_of_edge_.find(edge)) may_slide_along_[*segment] = false;
   }
 
-  void look_at(std::uint32_t facet, const std::array<VertexId, 3>& triangle, std::uint32_t v) {
+  void look_at(FacetId facet, const std::array<VertexId, 3>& triangle, std::uint32_t v) {
     VertexSurroundings& around = around_[v];
     around.flat = around.flat && plc_.facets[facet].exactly_flat;
-    if (around.facet == none) {
-      around.facet = facet;
-    } else if (around.facet != facet) {
-      around.several_facets = true;
-    }
+    if (around.facet.is_none()) around.facet = facet;
+    around.several_facets = around.several_facets || around.facet != facet;
     if (around.segment_count != 2) return;
     const auto& [a, b, c] = triangle;
     for (const std::uint32_t s : around.segments)
@@ -107,11 +103,11 @@ class FreedomFinder {
     const VertexSurroundings& around = around_[v];
     if (!around.flat) return fixed;
     if (around.segment_count == 2) return of_junction(v, around);
-    if (around.segment_count > 0 || around.facet == none || around.several_facets) return fixed;
+    if (around.segment_count > 0 || around.facet.is_none() || around.several_facets) return fixed;
     return in_plane(around.facet);
   }
 
-  Freedom in_plane(std::uint32_t facet) const {
+  Freedom in_plane(FacetId facet) const {
     if (!steps_[facet]) steps_[facet] = plc::steps_of_facet(plc_.triangles_of(plc_.facets[facet]), plc_.vertices);
     return steps_[facet] ? Freedom{2, steps_[facet]->u, steps_[facet]->v} : fixed;
   }

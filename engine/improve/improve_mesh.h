@@ -12,6 +12,7 @@
 #include "engine/improve/smoothing.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
+#include "engine/tets/cell_complex.h"
 
 namespace ccdt::improve {
 
@@ -24,8 +25,8 @@ QualityGoal goal_of(const ImproveOptions& options);
 /// good enough, no change helps, or the time is up.
 ///
 /// \param freedom  of the vertices that are not interior; empty: they stay
-ImproveCounts improve_cells(CellComplex& complex, const std::vector<Freedom>& freedom, const ImproveOptions& options,
-                            const Progress& progress = {});
+ImproveCounts improve_cells(tets::CellComplex& complex, const std::vector<Freedom>& freedom,
+                            const ImproveOptions& options, const Progress& progress = {});
 
 /// The data of a mesh that `improve_mesh` needs.
 struct ImproveInput {

@@ -21,16 +21,11 @@ constexpr double surplus_weight = 4;
 // The following loops have no branches and no calls, so that compilers vectorize them.
 
 void compute_inverse_r(const Point3& p, ScaledStar& star) {
-  const std::size_t size = star.size();
-  const double *nx = star.normal.x.data(), *ny = star.normal.y.data(), *nz = star.normal.z.data(),
-               *gx = star.centroid.x.data(), *gy = star.centroid.y.data(), *gz = star.centroid.z.data(),
-               *height = star.height.data(), *mean_square = star.mean_square.data();
-  double* result = star.inverse_r.data();
   const double half_square = 0.5 * squared_length(p);
-  for (std::size_t i = 0; i < size; ++i) {
-    const double det = nx[i] * p.x + ny[i] * p.y + nz[i] * p.z - height[i];
-    const double mean = half_square - (gx[i] * p.x + gy[i] * p.y + gz[i] * p.z) + mean_square[i];
-    result[i] = std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const double det = dot(star.normal[i], p) - star.height[i];
+    const double mean = half_square - dot(star.centroid[i], p) + star.mean_square[i];
+    star.inverse_r[i] = tets::inverse_r_of(det, mean);
   }
 }
 
@@ -39,24 +34,16 @@ inline double smaller(double a, double b) {
 }
 
 void compute_sines(const Point3& p, ScaledStar& star) {
-  const std::size_t size = star.size();
-  const double *ax = star.a.x.data(), *ay = star.a.y.data(), *az = star.a.z.data();
-  const double *bx = star.b.x.data(), *by = star.b.y.data(), *bz = star.b.z.data();
-  const double *cx = star.c.x.data(), *cy = star.c.y.data(), *cz = star.c.z.data();
-  const double *nx = star.normal.x.data(), *ny = star.normal.y.data(), *nz = star.normal.z.data();
-  const double *height = star.height.data(), *inverse_area = star.inverse_area.data();
-  double* result = star.sine.data();
-  for (std::size_t i = 0; i < size; ++i) {
-    const Point3 a{ax[i], ay[i], az[i]}, b{bx[i], by[i], bz[i]}, c{cx[i], cy[i], cz[i]};
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    const Point3 a = star.a[i], b = star.b[i], c = star.c[i];
     const Point3 u = a - p, v = b - p, w = c - p;
     const double fa = 1 / squared_length(cross(v, w)), fb = 1 / squared_length(cross(w, u)),
-                 fc = 1 / squared_length(cross(u, v)), fd = inverse_area[i];
+                 fc = 1 / squared_length(cross(u, v)), fd = star.inverse_area[i];
     const double at_apex =
         smaller(squared_length(u) * fb * fc, smaller(squared_length(v) * fc * fa, squared_length(w) * fa * fb));
     const double at_face =
         smaller(squared_length(b - a) * fc, smaller(squared_length(c - b) * fa, squared_length(a - c) * fb));
-    const double det = nx[i] * p.x + ny[i] * p.y + nz[i] * p.z - height[i];
-    result[i] = det * std::sqrt(smaller(at_apex, at_face * fd));
+    star.sine[i] = (dot(star.normal[i], p) - star.height[i]) * std::sqrt(smaller(at_apex, at_face * fd));
   }
 }
 
@@ -66,7 +53,7 @@ void add_inverse_r(const ScaledStar& star, std::size_t i, const Point3& p, doubl
                    LinearModels& models) {
   const Point3 normal = star.normal[i], from_centroid = p - star.centroid[i];
   const double mean = 0.5 * squared_length(p) - dot(star.centroid[i], p) + star.mean_square[i];
-  const double by_det = weight * std::numbers::sqrt2 / (mean * std::sqrt(mean));
+  const double by_det = tets::inverse_r_of(weight, mean);
   const double by_mean = -1.5 * weight * star.inverse_r[i] / mean;
   models.add(value, by_det * normal + by_mean * from_centroid);
 }
@@ -93,6 +80,14 @@ void add_sines(const ScaledStar& star, std::size_t i, const Point3& p, double of
   add(squared_length(b - a) * fc * fd, [&] { return by_fc; });
   add(squared_length(c - b) * fa * fd, [&] { return by_fa; });
   add(squared_length(a - c) * fb * fd, [&] { return by_fb; });
+}
+
+/// The quality of a star, as that of a cell, from the least 1 / r, shape(), and the least sine, sine().
+template <class Shape, class Sine>
+double quality_by(const QualityGoal& goal, const Shape& shape, const Sine& sine) {
+  if (goal.is_of_r())
+    if (const double value = shape(); value < goal.inverse_r) return value;
+  return goal.offset() + sine();
 }
 
 double least(const std::vector<double>& values) {
@@ -141,28 +136,23 @@ void load_star(std::span<const StarFace> faces, const Point3& apex, ScaledStar& 
 
 double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star) {
   work_done.quality_evaluations += star.size();
-  if (goal.objective == Objective::r) {
-    compute_inverse_r(x, star);
-    if (const double worst = least(star.inverse_r); worst < goal.inverse_r) return worst;
-  }
-  compute_sines(x, star);
-  return (goal.objective == Objective::r ? 1 : 0) + least(star.sine);
+  const auto shape = [&] { return compute_inverse_r(x, star), least(star.inverse_r); };
+  return quality_by(goal, shape, [&] { return compute_sines(x, star), least(star.sine); });
 }
 
 void model_star(const QualityGoal& goal, const Point3& x, double least, double reach, const ScaledStar& star,
                 LinearModels& models) {
   models.clear();
   const double below = least + reach;
-  const bool by_r = goal.objective == Objective::r;
-  if (by_r && least < goal.inverse_r) {
+  if (goal.is_of_r() && least < goal.inverse_r) {
     for (std::size_t i = 0; i < star.size(); ++i)
       if (star.inverse_r[i] < below) add_inverse_r(star, i, x, 1, star.inverse_r[i], models);
     return;
   }
-  const double offset = by_r ? 1 : 0;
+  const double offset = goal.offset();
   for (std::size_t i = 0; i < star.size(); ++i)
     if (offset + star.sine[i] < below) add_sines(star, i, x, offset, below, models);
-  if (!by_r) return;
+  if (!goal.is_of_r()) return;
   for (std::size_t i = 0; i < star.size(); ++i) {
     const double surplus = surplus_weight * (star.inverse_r[i] - goal.inverse_r);
     if (surplus < reach) add_inverse_r(star, i, x, surplus_weight, least + surplus, models);
@@ -198,13 +188,14 @@ struct Support {
 };
 
 /// The shares, of any sign, with the sum 1, that minimize sum of share * value + length / 2 * |combination|^2. By
-/// Cholesky decomposition of the matrix of the differences from the first gradient.
+/// Cholesky decomposition of the matrix of the differences from the first gradient. The right-hand side is its last
+/// row.
 std::array<double, most_in_support> free_shares(const Support& support, double length) {
   constexpr double regularization = 1e-12;
   const int n = support.size - 1;
   std::array<Point3, most_in_support - 1> difference;
-  std::array<std::array<double, most_in_support - 1>, most_in_support - 1> matrix;
-  std::array<double, most_in_support - 1> x;
+  std::array<std::array<double, most_in_support - 1>, most_in_support> matrix;
+  std::array<double, most_in_support - 1>& x = matrix[n];
   double trace = 0;
   for (int i = 0; i < n; ++i) {
     difference[i] = support.gradient[i + 1] - support.gradient[0];
@@ -212,18 +203,14 @@ std::array<double, most_in_support> free_shares(const Support& support, double l
     for (int j = 0; j <= i; ++j) matrix[i][j] = length * dot(difference[i], difference[j]);
     trace += matrix[i][i];
   }
-  for (int i = 0; i < n; ++i) {
-    matrix[i][i] += regularization * (trace + 1e-100);
-    for (int j = 0; j <= i; ++j) {
+  for (int i = 0; i < n; ++i) matrix[i][i] += regularization * (trace + 1e-100);
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j < std::min(i + 1, n); ++j) {
       double sum = matrix[i][j];
       for (int k = 0; k < j; ++k) sum -= matrix[i][k] * matrix[j][k];
       matrix[i][j] =
           i == j ? std::sqrt(std::max(sum, regularization * regularization * trace + 1e-200)) : sum / matrix[j][j];
     }
-  }
-  for (int i = 0; i < n; ++i) {
-    for (int k = 0; k < i; ++k) x[i] -= matrix[i][k] * x[k];
-    x[i] /= matrix[i][i];
   }
   for (int i = n - 1; i >= 0; --i) {
     for (int k = i + 1; k < n; ++k) x[i] -= matrix[k][i] * x[k];
@@ -357,7 +344,7 @@ bool all_positive(std::span<const StarFace> faces, const Point3& apex) {
 
 std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
   return static_cast<std::size_t>(std::count_if(faces.begin(), faces.end(), [&](const StarFace& f) {
-    return tets::cell_quality(goal, f.a, f.b, f.c, apex) < goal_quality(goal);
+    return tets::cell_quality(goal, f.a, f.b, f.c, apex) < goal.good();
   }));
 }
 
@@ -365,7 +352,7 @@ std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, 
 Point3 find_start(const QualityGoal& goal, const Projection& project, ScaledStar& star, double& least) {
   const Point3 mean = project(star.mean);
   least = least_quality(goal, mean, star);
-  if (least >= goal_quality(goal)) return mean;
+  if (least >= goal.good()) return mean;
   const double at_apex = least_quality(goal, {}, star);
   if (at_apex >= least) {
     least = at_apex;
@@ -381,7 +368,7 @@ Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, doubl
   auto& [star, models] = scratch;
   double length = first_length;
   bool moved = true;
-  for (int i = 0; i < most_steps && least < goal_quality(goal); ++i) {
+  for (int i = 0; i < most_steps && least < goal.good(); ++i) {
     if (moved) {
       model_star(goal, x, least, reach, star, models);
       project.apply(models);
@@ -407,19 +394,18 @@ Point3 climb(const QualityGoal& goal, const Projection& project, Point3 x, doubl
 
 double worst_of_star(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {
   work_done.quality_evaluations += faces.size();
-  double least = 1;
-  if (goal.objective == Objective::r) {
-    for (const StarFace& f : faces) least = std::min(least, tets::inverse_r(f.a, f.b, f.c, apex));
-    if (least < goal.inverse_r) return least;
-  }
-  least = 1;
-  for (const StarFace& f : faces) least = std::min(least, tets::least_sine(f.a, f.b, f.c, apex));
-  return goal.objective == Objective::r ? 1 + least : least;
+  const auto least_of = [&](const auto& measure) {
+    double least = 1;
+    for (const StarFace& f : faces) least = std::min(least, measure(f.a, f.b, f.c, apex));
+    return least;
+  };
+  return quality_by(
+      goal, [&] { return least_of(tets::inverse_r); }, [&] { return least_of(tets::least_sine); });
 }
 
 double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const Freedom& freedom, double worst,
                  MoveScratch& scratch, Point3& apex) {
-  if (freedom.dimensions == 0 || faces.empty() || worst >= goal_quality(goal)) return worst;
+  if (freedom.dimensions == 0 || faces.empty() || worst >= goal.good()) return worst;
   ScaledStar& star = scratch.star;
   load_star(faces, apex, star);
   const Projection project(freedom);

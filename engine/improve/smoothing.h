@@ -1,15 +1,19 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
-#include "engine/tets/vertex_star.h"
+#include "engine/tets/cell_quality.h"
 
 namespace ccdt::improve {
 
-using tets::CellComplex, tets::CellMarks, tets::Objective, tets::QualityGoal, tets::StarFace, tets::VertexStar;
+using tets::QualityGoal;
+
+/// A face as seen from the apex of a star: the tetrahedron a b c apex is positive.
+struct StarFace {
+  Point3 a, b, c;
+};
 
 /// Where a vertex may move: to any point with integer coordinates, or to those exactly on its facet or segment.
 struct Freedom {

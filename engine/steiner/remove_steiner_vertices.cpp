@@ -8,8 +8,6 @@
 #include "engine/steiner/plan_vertex_removal.h"
 
 namespace ccdt::steiner {
-
-using tets::no_neighbor;
 namespace {
 
 constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill};
@@ -25,7 +23,7 @@ constexpr std::size_t more_turns = 100;
 
 /// A Steiner vertex and its neighbors on the segment.
 struct Candidate {
-  std::uint32_t vertex = no_neighbor;  ///< none if it was removed or may not be
+  VertexId vertex;  ///< none if it was removed or may not be
   std::array<std::uint32_t, 2> neighbors{};
   /// By effort: the number of the last change when it could not be removed.
   std::array<std::uint64_t, all_efforts.size()> tried_at{};
@@ -33,13 +31,12 @@ struct Candidate {
 
 class SteinerRemover {
  public:
-  SteinerRemover(CellComplex& x, std::uint32_t first_steiner)
-      : x_(x), removal_(x), loosener_(x), first_steiner_(first_steiner) {}
+  SteinerRemover(CellComplex& x, std::uint32_t first_steiner) : x_(x), first_steiner_(first_steiner) {}
 
   void add_chain(std::span<const protection::ChainVertex> chain) {
     for (std::size_t i = 1; i + 1 < chain.size(); ++i) {
-      const std::uint32_t v = chain[i].vertex;
-      if (v < first_steiner_ || x_.cell_at(v) == no_neighbor) continue;
+      const VertexId v = chain[i].vertex;
+      if (v < first_steiner_ || x_.cell_at(v).is_none()) continue;
       const std::size_t place = v - first_steiner_;
       if (place >= candidates_.size()) candidates_.resize(place + 1);
       candidates_[place] = {v, {chain[i - 1].vertex, chain[i + 1].vertex}};
@@ -58,28 +55,37 @@ class SteinerRemover {
   /// Tries each vertex once, the last split first, unless nothing around it has changed since it was last tried.
   /// \return was one removed?
   bool pass(RemovalEffort effort, const Progress& progress) {
-    const std::uint64_t changes = x_.change_count();
+    const std::uint64_t before = removed_;
     for (std::size_t i = candidates_.size(); i-- > 0;) {
       report(progress, "improve", candidates_.size() - i, candidates_.size());
       Candidate& c = candidates_[i];
       std::uint64_t& tried_at = c.tried_at[static_cast<std::size_t>(effort)];
-      if (c.vertex == no_neighbor || x_.changed_at(c.vertex) < tried_at || try_to_remove(c, effort)) continue;
+      if (c.vertex.is_none() || x_.changed_at(c.vertex) < tried_at || remove(c, effort)) continue;
       tried_at = x_.change_count() + 1;
     }
-    return x_.change_count() > changes;
+    return removed_ > before;
   }
 
-  bool try_to_remove(Candidate& c, RemovalEffort effort) {
-    if (!removal_.plan(c.vertex, c.neighbors, effort, change_)) return false;
-    remove(c);
+  /// \return was it possible?
+  bool remove(Candidate& c, RemovalEffort effort) {
+    if (!plan_vertex_removal(x_, c.vertex, c.neighbors, effort, scratch_, change_)) return false;
+    x_.apply(change_, made_);
+    for (int side = 0; side < 2; ++side) replace_neighbor(c.neighbors[side], c.vertex, c.neighbors[1 - side]);
+    c.vertex = {};
+    ++removed_;
     return true;
+  }
+
+  void replace_neighbor(std::uint32_t of, std::uint32_t from, std::uint32_t to) {
+    if (of < first_steiner_ || of - first_steiner_ >= candidates_.size()) return;
+    std::ranges::replace(candidates_[of - first_steiner_].neighbors, from, to);
   }
 
   /// Tries those that are left again and again, after changes of the cells around them.
   void loosen_rest(const Progress& progress) {
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
-      if (candidates_[i].vertex != no_neighbor) left.push_back(i);
+      if (!candidates_[i].vertex.is_none()) left.push_back(i);
     std::size_t turn = 0, most_turns = left.size();
     const auto give_turns = [&](int shakes) {
       std::erase_if(left, [&](std::size_t i) {
@@ -95,36 +101,24 @@ class SteinerRemover {
   /// Changes the cells around a vertex until it can be removed. \return was it?
   bool remove_loosened(Candidate& c, int shakes) {
     for (int i = 0; i < loosenings; ++i) {
-      loosener_.loosen(c.vertex, shakes);
-      const bool is_removed = try_to_remove(c, RemovalEffort::collapse) || try_to_remove(c, RemovalEffort::fill);
-      loosener_.tidy(is_removed ? c.neighbors[0] : c.vertex);
+      loosen_star(x_, c.vertex, shakes, loosening_);
+      const bool is_removed = remove(c, RemovalEffort::collapse) || remove(c, RemovalEffort::fill);
+      tidy_star(x_, is_removed ? c.neighbors[0] : c.vertex, loosening_);
       if (is_removed) return true;
     }
     return false;
   }
 
-  void remove(Candidate& c) {
-    x_.apply(change_, made_);
-    for (int side = 0; side < 2; ++side) replace_neighbor(c.neighbors[side], c.vertex, c.neighbors[1 - side]);
-    c.vertex = no_neighbor;
-    ++removed_;
-  }
-
-  void replace_neighbor(std::uint32_t of, std::uint32_t from, std::uint32_t to) {
-    if (of < first_steiner_ || of - first_steiner_ >= candidates_.size()) return;
-    std::ranges::replace(candidates_[of - first_steiner_].neighbors, from, to);
-  }
-
   CellComplex& x_;
-  VertexRemoval removal_;
-  StarLoosener loosener_;
   const std::uint32_t first_steiner_;
   std::vector<Candidate> candidates_;  ///< by vertex, from the first Steiner vertex
   std::uint64_t removed_ = 0;
+  Loosening loosening_;
 
   // Working memory.
+  RemovalScratch scratch_;
   Change change_;
-  std::vector<std::uint32_t> made_;
+  std::vector<CellId> made_;
 };
 
 }  // namespace

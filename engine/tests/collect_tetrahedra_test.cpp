@@ -48,8 +48,8 @@ std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& fro
   const tets::CellComplex kept = complex_of(joined), found = complex_of(improve_test::unjoined_cells(collected.mesh));
   improve_test::expect_consistent(kept);
   for (std::uint32_t c = 0; c < joined.size(); ++c) {
-    EXPECT_EQ(kept.cell(c).vertices, collected.mesh.tetrahedra[c]) << "cell " << c;
-    EXPECT_EQ(kept.cell(c).neighbors, found.cell(c).neighbors) << "cell " << c;
+    EXPECT_EQ(kept.cell(CellId(c)).vertices, collected.mesh.tetrahedra[c]) << "cell " << c;
+    EXPECT_EQ(kept.cell(CellId(c)).neighbors, found.cell(CellId(c)).neighbors) << "cell " << c;
   }
   return count_joined(joined);
 }

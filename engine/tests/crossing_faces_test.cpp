@@ -43,7 +43,7 @@ void add(const std::array<Point3, 4>& corners, Model& model) {
 bool can_flip(const Model& model) {
   const tets::CellComplex x = complex_of(model, any_positive);
   tets::Change change;
-  return tets::plan_edge_removal(x, 0, edge_of_cell(x, 0, 0, 2), 0, change);
+  return tets::plan_edge_removal(x, CellId(0), edge_of_cell(x, CellId(0), 0, 2), 0, change);
 }
 
 TEST(CrossingFaces, TakeOnlySpaceThatIsFree) {
@@ -141,9 +141,9 @@ TEST(CrossingFaces, AreNotMadeByRandomChanges) {
     const std::vector<Triangle> before = x.faces();
     for (std::size_t f = 0; f < before.size(); ++f)
       for (std::size_t g = 0; g < f; ++g) ASSERT_FALSE(meet(x, before[f], before[g])) << f << " " << g;
-    std::vector<std::uint32_t> made;
-    tets::CellShaker shaker(x);
-    for (std::uint32_t v = 0; v < x.vertex_count(); ++v) shaker.shake(v, 20, 0, made);
+    std::vector<CellId> made;
+    std::mt19937 shakes(2);
+    for (std::uint32_t v = 0; v < x.vertex_count(); ++v) tets::shake_cells(x, v, 20, 0, shakes, made);
     expect_consistent(x);
     for (std::size_t f = 0; f < before.size(); ++f) {
       flipped += x.faces()[f] != before[f];

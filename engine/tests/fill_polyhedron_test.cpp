@@ -34,7 +34,7 @@ Model model_of(const plc::InputPlc& input) {
 std::vector<Triangle> hull_of(const tets::CellComplex& x) {
   std::vector<Triangle> hull;
   const auto center = static_cast<std::uint32_t>(x.vertex_count() - 1);
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1))
     hull.push_back(tets::corners_of_face(x.cell(c).vertices, x.place(c, center)));
   return hull;
 }
@@ -53,13 +53,13 @@ Integer sixfold_volume(const tets::CellComplex& x, const Tetrahedron& t) {
 /// Fills the polyhedron without its last vertex. \return was it filled?
 bool fills(const Model& model) {
   const tets::CellComplex x = complex_of(model, {tets::Objective::r, 1, 1});
-  tets::PolyhedronFiller filler(x);
+  tets::PolyhedronFiller filler;
   std::vector<tets::NewCell> cells;
-  const bool is_filled = filler.fill(hull_of(x), 7, 0, cells);
+  const bool is_filled = filler.fill(x, hull_of(x), 7, 0, cells);
   EXPECT_EQ(is_filled, !cells.empty());
   if (!is_filled) return false;
   Integer before = 0, after = 0;
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c) before += sixfold_volume(x, x.cell(c).vertices);
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1)) before += sixfold_volume(x, x.cell(c).vertices);
   std::map<FaceKey, int> counts;
   for (const tets::NewCell& cell : cells) {
     EXPECT_GT(sixfold_volume(x, cell.vertices), 0);
@@ -96,9 +96,9 @@ bool has_all(const tets::NewCell& cell, std::initializer_list<std::uint32_t> ver
 
 TEST(PolyhedronFiller, JoinsAllFacesToTheVertexWithTheBestTetrahedra) {
   const tets::CellComplex x = complex_of(octahedron(), {tets::Objective::r, 1, 1});
-  tets::PolyhedronFiller filler(x);
+  tets::PolyhedronFiller filler;
   std::vector<tets::NewCell> cells;
-  ASSERT_TRUE(filler.fill(hull_of(x), 7, 0, cells));
+  ASSERT_TRUE(filler.fill(x, hull_of(x), 7, 0, cells));
   ASSERT_EQ(cells.size(), 4u);
   for (const tets::NewCell& cell : cells) EXPECT_TRUE(has_all(cell, {0, 1}));
 }
@@ -108,9 +108,9 @@ TEST(PolyhedronFiller, KeepsAFacetThatEndsInside) {
   std::vector<Triangle> hull = hull_of(x);
   hull.push_back({0, 2, 6});
   hull.push_back({0, 6, 2});
-  tets::PolyhedronFiller filler(x);
+  tets::PolyhedronFiller filler;
   std::vector<tets::NewCell> cells;
-  ASSERT_TRUE(filler.fill(hull, 7, 0, cells));
+  ASSERT_TRUE(filler.fill(x, hull, 7, 0, cells));
   EXPECT_EQ(std::ranges::count_if(cells, [](const auto& cell) { return has_all(cell, {0, 2, 6}); }), 2);
 }
 
@@ -170,9 +170,9 @@ TEST(PolyhedronFiller, DoesNotTakeARoundingForAnImprovement) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {
     const tets::CellComplex x = complex_of(random_star(random), {tets::Objective::r, 1, 1});
-    tets::PolyhedronFiller filler(x);
+    tets::PolyhedronFiller filler;
     std::vector<tets::NewCell> cells;
-    EXPECT_FALSE(filler.fill(hull_of(x), 7, best_on_worst_face(x), cells));
+    EXPECT_FALSE(filler.fill(x, hull_of(x), 7, best_on_worst_face(x), cells));
   }
 }
 

@@ -137,10 +137,10 @@ void visit_cases(const Visit& visit) {
   }
 }
 
-std::vector<std::uint32_t> bad_cells(const tets::CellComplex& x, const tets::QualityGoal& goal) {
-  std::vector<std::uint32_t> bad;
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
-    if (!x.is_dead(c) && x.quality(c) < tets::goal_quality(goal)) bad.push_back(c);
+std::vector<CellId> bad_cells(const tets::CellComplex& x, const tets::QualityGoal& goal) {
+  std::vector<CellId> bad;
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1))
+    if (!x.is_dead(c) && x.quality(c) < goal.good()) bad.push_back(c);
   return bad;
 }
 
@@ -242,7 +242,7 @@ TEST(Improving, LeavesNoSwapsOnceItFindsNone) {
       improve::improve_cells(x, c.freedom(), c.options);
     } while (x.change_count() != changes);
     tets::Change change;
-    for (const std::uint32_t cell : bad_cells(x, goal)) {
+    for (const CellId cell : bad_cells(x, goal)) {
       for (std::uint32_t edge = 0; edge < 6; ++edge)
         EXPECT_FALSE(tets::plan_edge_removal(x, cell, edge, x.quality(cell), change) && x.all_positive(change));
       for (std::uint32_t face = 0; face < 4; ++face)
@@ -284,23 +284,29 @@ TEST(Improving, MovesOfOneStepAreThoseFoundOneAfterTheOther) {
   const tets::QualityGoal goal = improve::goal_of(options);
   const tets::CellComplex x = complex_of(cube_of(4, 0.4, 1).model, goal);
   const std::vector<improve::Freedom> freedom;  // none for vertices on the boundary
-  improve::StepFinder finder(x, freedom, improve::Improvement::smooth);
+  const improve::StepRules rules{improve::Improvement::smooth, freedom};
+  improve::StepScratch scratch;
   improve::Step step;
   std::size_t second_moves = 0;
-  for (const std::uint32_t c : bad_cells(x, goal)) {
-    finder.find(c, false, improve::Effort::usual, step);
+  for (const CellId c : bad_cells(x, goal)) {
+    improve::find_step(x, rules, c, false, improve::Effort::usual, scratch, step);
     if (step.kind != improve::Step::Kind::moves) continue;
     tets::CellComplex moved = x;
     for (std::size_t i = 0; i < step.move_count; ++i) {
       const improve::Move& move = step.moves[i];
-      tets::CellMarks marks;
-      tets::VertexStar star;
-      improve::MoveScratch scratch;
-      tets::gather_star(moved, move.vertex, marks, star);
+      tets::CellSet star;
+      star.gather_star(moved, move.vertex);
+      std::vector<improve::StarFace> faces;
+      double worst = 2;
+      for (const CellId cell : star.cells()) {
+        const auto [p, q, r] = tets::corners_of_face(moved.cell(cell).vertices, moved.place(cell, move.vertex));
+        faces.push_back({moved.point(p), moved.point(q), moved.point(r)});
+        worst = std::min(worst, moved.quality(cell));
+      }
       Point3 place = moved.point(move.vertex);
-      improve::move_apex(star.faces, goal, {}, moved.worst_of(star.cells), scratch, place);
+      improve::move_apex(faces, goal, {}, worst, scratch.plan.move, place);
       EXPECT_TRUE(place == move.place) << "cell " << c << ", move " << i;
-      EXPECT_TRUE(star.cells == move.star);
+      EXPECT_TRUE(star.cells() == move.star);
       moved.move_vertex(move.vertex, move.place, move.star);
       second_moves += i > 0;
     }

@@ -40,7 +40,7 @@ Model ring_of(std::uint32_t size, double height = 1000, double radius = 100) {
 
 /// Plans to remove an edge that the first cell has.
 bool plan_removal(const tets::CellComplex& x, std::uint32_t a, std::uint32_t b, tets::Change& change) {
-  return tets::plan_edge_removal(x, 0, edge_of_cell(x, 0, a, b), x.quality(0), change);
+  return tets::plan_edge_removal(x, CellId(0), edge_of_cell(x, CellId(0), a, b), x.quality(CellId(0)), change);
 }
 
 /// Makes the change and expects a consistent result.
@@ -98,7 +98,7 @@ TEST(Changes, TwoFlatTetrahedraBecomeThreeAroundAnEdge) {
   model.cells = {{0, 2, 3, 4}, {1, 2, 3, 4}};
   tets::CellComplex x = complex_of(model, by_shape);
   tets::Change change;
-  ASSERT_TRUE(tets::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
+  ASSERT_TRUE(tets::plan_face_removal(x, CellId(0), x.place(CellId(0), 0), x.quality(CellId(0)), change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 1, 2, 3}, {0, 1, 2, 4}, {0, 1, 3, 4}}));
 }
@@ -148,14 +148,14 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   const Invariants before = invariants_of(x);
   tets::Change change, neighbor, distant;
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
-  ASSERT_TRUE(tets::plan_edge_removal(x, 3, edge_of_cell(x, 3, 1, 5), x.quality(3), neighbor));
-  distant.old_cells = {6, 7, 8};
+  ASSERT_TRUE(tets::plan_edge_removal(x, CellId(3), edge_of_cell(x, CellId(3), 1, 5), x.quality(CellId(3)), neighbor));
+  distant.old_cells = {CellId(6), CellId(7), CellId(8)};
   tets::Cavity cavity, beside, apart;
   x.find_cavity(change, cavity);
   x.find_cavity(neighbor, beside);
   x.find_cavity(distant, apart);
   EXPECT_FALSE(x.has_changed_beyond(beside, x.change_count()));
-  std::vector<std::uint32_t> places;
+  std::vector<CellId> places;
   const std::uint64_t since = x.change_count();
   x.announce(change, cavity, places);
   EXPECT_TRUE(x.has_changed_beyond(beside, since));
@@ -177,22 +177,41 @@ TEST(Changes, ChangeBeyondAFaceOfACavityIsNoticed) {
   EXPECT_TRUE(invariants_of(x) == before);
 }
 
-TEST(CellMarks, AreForgottenByEveryLaterSearch) {
-  tets::CellMarks marks;
-  marks.clear(2);
-  marks.mark(1);
+TEST(CellSet, IsForgottenByEveryLaterSearch) {
+  const tets::CellComplex x = complex_of(ring_of(3), by_shape);
+  tets::CellSet cells;
+  cells.start(x, CellId(1));
   for (int search = 0; search < 1 << 17; ++search) {
-    marks.clear(2);
-    ASSERT_FALSE(marks.is_marked(0) || marks.is_marked(1)) << search;
+    cells.clear(x);
+    ASSERT_FALSE(cells.contains(CellId(0)) || cells.contains(CellId(1))) << search;
   }
+}
+
+TEST(CellSet, GrowsToAStarAndHasItsHull) {
+  const tets::CellComplex x = complex_of(octahedron(), by_shape);
+  tets::CellSet star;
+  star.gather_star(x, 6);
+  EXPECT_EQ(star.cells().size(), 8u);
+  std::size_t faces = 0;
+  star.visit_hull(x, [&](std::uint32_t code) {
+    ++faces;
+    EXPECT_EQ(x.apex_of(code), 6u);
+  });
+  EXPECT_EQ(faces, 8u);
+  star.gather_star(x, 0);
+  EXPECT_EQ(star.cells().size(), 4u);
+  star.start(x, x.cell_at(0));
+  EXPECT_FALSE(star.grow(
+      x, [](std::uint32_t) { return true; }, 0, 7));
+  EXPECT_EQ(star.cells().size(), 7u);
 }
 
 TEST(Changes, LongerRingIsLeftAlone) {
   tets::CellComplex x = complex_of(ring_of(tets::longest_ring + 1), by_shape);
   // Not for lack of something better: of all triangles of the ring, none is smaller than one that cuts off a corner.
-  EXPECT_GT(x.quality_of({2, 3, 4, 1}), x.quality(0));
+  EXPECT_GT(x.quality_of({2, 3, 4, 1}), x.quality(CellId(0)));
   tets::Change change;
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1))
     EXPECT_FALSE(tets::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), x.quality(c), change));
 }
 
@@ -220,7 +239,7 @@ TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
   ASSERT_TRUE(plan_removal(x, 0, 1, change));
   apply_checked(x, change);
   EXPECT_EQ(cells_of(x), (std::set<Tetrahedron>{{0, 2, 3, 4}, {1, 2, 3, 4}, {0, 2, 3, 5}, {1, 2, 3, 5}}));
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1))
     EXPECT_EQ(x.region(c), std::ranges::count(x.cell(c).vertices, 4u) == 1 ? 1 : 2);
 }
 
@@ -239,7 +258,7 @@ TEST(Changes, DiagonalOnANearlyFlatFacetIsNotExchangedWhereItsFacesWouldFoldOver
   const tets::CellComplex x = complex_of(nearly_flat_dart(), by_shape);
   ASSERT_LT(x.quality_of({2, 3, 4, 0}) * x.quality_of({2, 3, 4, 1}), 0);
   tets::Change change;
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1))
     EXPECT_FALSE(tets::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), 0, change));
 }
 
@@ -293,8 +312,9 @@ TEST(Changes, FacesOfANearlyFlatFacetAreSeenAlongOneAxis) {
     const Model model = pyramid_on_a_fan(random);
     if (!are_positive(model)) continue;
     tets::CellComplex x = complex_of(model, by_shape);
-    std::vector<std::uint32_t> made;
-    tets::CellShaker(x).shake(4, 200, 0, made);
+    std::vector<CellId> made;
+    std::mt19937 shakes(2);
+    tets::shake_cells(x, 4, 200, 0, shakes, made);
     flipped += !has_edge(x, 0, 4);
     expect_consistent(x);
   }
@@ -371,7 +391,7 @@ TEST(Changes, TwoFacesAreRemovedTogetherWithTheEdgeBetweenThem) {
   model.cells = {{0, 2, 3, 4}, {0, 2, 5, 4}, {1, 2, 3, 4}, {1, 2, 5, 4}};
   tets::CellComplex x = complex_of(model, by_shape);
   tets::Change change;
-  ASSERT_TRUE(tets::plan_face_removal(x, 0, x.place(0, 0), x.quality(0), change));
+  ASSERT_TRUE(tets::plan_face_removal(x, CellId(0), x.place(CellId(0), 0), x.quality(CellId(0)), change));
   apply_checked(x, change);
   EXPECT_FALSE(has_edge(x, 2, 4));
   EXPECT_TRUE(has_edge(x, 0, 1));
@@ -390,9 +410,9 @@ TEST(Changes, InteriorVertexIsCollapsed) {
   tets::CellComplex x = complex_of(octahedron(), by_shape);
   tets::Change change;
   improve::PlanScratch scratch;
-  ASSERT_TRUE(improve::plan_collapse(x, 0, x.quality(0), scratch, change));
+  ASSERT_TRUE(improve::plan_collapse(x, CellId(0), x.quality(CellId(0)), scratch, change));
   apply_checked(x, change);
-  EXPECT_EQ(x.cell_at(6), delaunay::no_neighbor);
+  EXPECT_TRUE(x.cell_at(6).is_none());
   mesh::TetMesh mesh;
   mesh.face_markers.resize(x.faces().size());
   EXPECT_EQ(std::move(x).take_mesh(mesh).size(), 6u);
@@ -422,7 +442,7 @@ TEST(Changes, CavityOfANewVertexKeepsDanglingSegments) {
     tets::CellComplex free = complex_of(model, by_angle);
     tets::Change change;
     improve::PlanScratch scratch;
-    ASSERT_TRUE(improve::plan_insertion(free, 0, free.quality(0), scratch, change));
+    ASSERT_TRUE(improve::plan_insertion(free, CellId(0), free.quality(CellId(0)), scratch, change));
     apply_change(free, change);
     EXPECT_FALSE(has_edge(free, 0, 1));
     model.segments = {{0, 1}};
@@ -443,18 +463,18 @@ TEST(Changes, VertexIsInsertedIntoASliver) {
   model.points = {{-100, 0, -2}, {100, 0, -2}, {0, -100, 2}, {0, 100, 2}, {0, 0, 140}, {0, 0, -140}};
   model.cells = {{0, 1, 2, 3}, {2, 3, 0, 4}, {2, 3, 1, 4}, {0, 1, 2, 5}, {0, 1, 3, 5}};
   tets::CellComplex x = complex_of(model, by_angle);
-  EXPECT_LT(x.quality(0), 0.1);
+  EXPECT_LT(x.quality(CellId(0)), 0.1);
   tets::Change change;
   improve::PlanScratch scratch;
-  ASSERT_TRUE(improve::plan_insertion(x, 0, x.quality(0), scratch, change));
+  ASSERT_TRUE(improve::plan_insertion(x, CellId(0), x.quality(CellId(0)), scratch, change));
   const Invariants before = invariants_of(x);
   apply_change(x, change);
   expect_consistent(x);
   EXPECT_EQ(x.vertex_count(), 7u);
-  EXPECT_NE(x.cell_at(6), delaunay::no_neighbor);
+  EXPECT_FALSE(x.cell_at(6).is_none());
   EXPECT_TRUE(invariants_of(x) == before);
   EXPECT_EQ(cells_of(x).size(), 8u);
-  EXPECT_GT(x.worst_of(std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7}), 0.5);
+  EXPECT_GT(worst_quality(x), 0.5);
 }
 
 }  // namespace

@@ -42,12 +42,12 @@ Integer sixfold_volume(const std::vector<Point3>& points, const Tetrahedron& t) 
 
 template <class Visit>
 void visit_cells(const tets::CellComplex& x, const Visit& visit) {
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c)
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1))
     if (!x.is_dead(c)) visit(c);
 }
 
 FaceKey key_of(const tets::CellComplex& x, std::uint32_t code) {
-  const auto& v = x.cell(delaunay::cell_of(code)).vertices;
+  const auto& v = x.cell(tets::cell_of(code)).vertices;
   const auto& corner = delaunay::face_corners[delaunay::face_of(code)];
   return face_key(v[corner[0]], v[corner[1]], v[corner[2]]);
 }
@@ -81,28 +81,29 @@ void add_boundary(Model& model) {
 }
 
 void expect_neighbors_fit(const tets::CellComplex& x, std::uint32_t code) {
-  const std::uint32_t c = delaunay::cell_of(code), beyond = x.cell(c).neighbors[delaunay::face_of(code)];
+  const CellId c = tets::cell_of(code);
+  const std::uint32_t beyond = x.cell(c).neighbors[delaunay::face_of(code)];
   const FaceKey key = key_of(x, code);
   const bool on_facet = x.find_face(key[0], key[1], key[2]).has_value();
   EXPECT_EQ(x.is_wall(code), on_facet || beyond == delaunay::no_neighbor)
       << "face " << delaunay::face_of(code) << " of cell " << c;
   if (beyond == delaunay::no_neighbor) return;
-  ASSERT_LT(delaunay::cell_of(beyond), x.cell_count());
-  EXPECT_FALSE(x.is_dead(delaunay::cell_of(beyond)));
-  EXPECT_EQ(x.cell(delaunay::cell_of(beyond)).neighbors[delaunay::face_of(beyond)], code);
+  ASSERT_LT(tets::cell_of(beyond), x.cell_count());
+  EXPECT_FALSE(x.is_dead(tets::cell_of(beyond)));
+  EXPECT_EQ(x.cell(tets::cell_of(beyond)).neighbors[delaunay::face_of(beyond)], code);
   EXPECT_EQ(key_of(x, beyond), key_of(x, code));
-  EXPECT_TRUE(x.is_wall(code) || x.region(delaunay::cell_of(beyond)) == x.region(c)) << "cell " << c;
+  EXPECT_TRUE(x.is_wall(code) || x.region(tets::cell_of(beyond)) == x.region(c)) << "cell " << c;
 }
 
 void expect_vertices_know_cells(const tets::CellComplex& x) {
   std::vector<bool> in_use(x.vertex_count(), false);
-  visit_cells(x, [&](std::uint32_t c) {
+  visit_cells(x, [&](CellId c) {
     for (const std::uint32_t v : x.cell(c).vertices) in_use[v] = true;
   });
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v) {
-    const std::uint32_t c = x.cell_at(v);
-    EXPECT_EQ(c != delaunay::no_neighbor, in_use[v]) << "vertex " << v;
-    if (c == delaunay::no_neighbor) continue;
+    const CellId c = x.cell_at(v);
+    EXPECT_EQ(!c.is_none(), in_use[v]) << "vertex " << v;
+    if (c.is_none()) continue;
     ASSERT_FALSE(x.is_dead(c)) << "vertex " << v;
     EXPECT_EQ(std::ranges::count(x.cell(c).vertices, v), 1) << "vertex " << v;
   }
@@ -111,7 +112,7 @@ void expect_vertices_know_cells(const tets::CellComplex& x) {
 void expect_faces_and_segments_there(const tets::CellComplex& x) {
   std::set<FaceKey> faces;
   std::set<std::uint64_t> edges;
-  visit_cells(x, [&](std::uint32_t c) {
+  visit_cells(x, [&](CellId c) {
     const auto& v = x.cell(c).vertices;
     for (std::uint32_t f = 0; f < 4; ++f) faces.insert(key_of(x, delaunay::face_code(c, f)));
     for (std::uint32_t i = 0; i < 4; ++i)
@@ -141,7 +142,7 @@ void expect_sound(tets::CellComplex x, const Invariants& before, double least, c
   expect_consistent(x);
   EXPECT_TRUE(invariants_of(x) == before);
   for (std::uint32_t v = 0; v < x.vertex_count(); ++v)
-    if (x.cell_at(v) == delaunay::no_neighbor) counts.vertices_gone.insert(v);
+    if (x.cell_at(v).is_none()) counts.vertices_gone.insert(v);
 }
 
 }  // namespace
@@ -152,8 +153,8 @@ std::vector<Point3> points_of(const tets::CellComplex& x) {
   return points;
 }
 
-std::vector<std::uint32_t> apply_change(tets::CellComplex& x, tets::Change change) {
-  std::vector<std::uint32_t> made;
+std::vector<CellId> apply_change(tets::CellComplex& x, tets::Change change) {
+  std::vector<CellId> made;
   x.apply(change, made);
   return made;
 }
@@ -179,7 +180,7 @@ tets::CellComplex complex_of(Model model, const tets::QualityGoal& goal) {
 Invariants invariants_of(const tets::CellComplex& x) {
   Invariants result;
   const std::vector<Point3> points = points_of(x);
-  visit_cells(x, [&](std::uint32_t c) {
+  visit_cells(x, [&](CellId c) {
     result.sixfold_volumes[x.region(c)] += sixfold_volume(points, x.cell(c).vertices);
     for (const std::uint32_t v : x.cell(c).vertices) {
       if (x.is_interior(v)) continue;
@@ -200,7 +201,7 @@ Invariants invariants_of(const tets::CellComplex& x) {
 void expect_consistent(const tets::CellComplex& x) {
   std::size_t dead = 0;
   const std::vector<Point3> points = points_of(x);
-  for (std::uint32_t c = 0; c < x.cell_count(); ++c) {
+  for (CellId c(0); c < x.cell_count(); c = CellId(c + 1)) {
     dead += x.is_dead(c);
     if (x.is_dead(c)) continue;
     EXPECT_GT(sixfold_volume(points, x.cell(c).vertices), 0) << "cell " << c;
@@ -218,11 +219,11 @@ PlanCounts expect_every_plan_is_sound(const tets::CellComplex& complex) {
   const tets::CellComplex& x = complex;
   tets::Change change;
   improve::PlanScratch scratch;
-  const auto make = [&](int& count, std::uint32_t cell) {
+  const auto make = [&](int& count, CellId cell) {
     ++count;
     expect_sound(x, before, x.quality(cell), change, counts);
   };
-  visit_cells(complex, [&](std::uint32_t c) {
+  visit_cells(complex, [&](CellId c) {
     SCOPED_TRACE("cell " + std::to_string(c));
     const double least = complex.quality(c);
     for (std::uint32_t edge = 0; edge < 6; ++edge) {
@@ -240,13 +241,13 @@ PlanCounts expect_every_plan_is_sound(const tets::CellComplex& complex) {
 
 double worst_quality(const tets::CellComplex& x) {
   double worst = 2;
-  visit_cells(x, [&](std::uint32_t c) { worst = std::min(worst, x.quality(c)); });
+  visit_cells(x, [&](CellId c) { worst = std::min(worst, x.quality(c)); });
   return worst;
 }
 
 std::set<Tetrahedron> cells_of(const tets::CellComplex& x) {
   std::set<Tetrahedron> cells;
-  visit_cells(x, [&](std::uint32_t c) {
+  visit_cells(x, [&](CellId c) {
     Tetrahedron t = x.cell(c).vertices;
     std::ranges::sort(t);
     cells.insert(t);
@@ -254,7 +255,7 @@ std::set<Tetrahedron> cells_of(const tets::CellComplex& x) {
   return cells;
 }
 
-std::uint32_t edge_of_cell(const tets::CellComplex& x, std::uint32_t cell, std::uint32_t a, std::uint32_t b) {
+std::uint32_t edge_of_cell(const tets::CellComplex& x, CellId cell, std::uint32_t a, std::uint32_t b) {
   const auto& v = x.cell(cell).vertices;
   std::uint32_t edge = 0;
   while (edge < 6 && edge_key(v[delaunay::edge_corners[edge][0]], v[delaunay::edge_corners[edge][1]]) != edge_key(a, b))

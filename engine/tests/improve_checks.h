@@ -26,13 +26,13 @@ struct Model {
   std::vector<Triangle> faces = {};  ///< on facets; missing faces of the boundary become facets of their own
   std::vector<std::uint32_t> facet_of_face = {};
   std::vector<Edge> segments = {};
-  std::uint32_t first_interior = 0xFFFFFFFFu;  ///< none is interior
+  std::uint32_t first_interior = VertexId::none_value;  ///< none is interior
 };
 
 std::vector<Point3> points_of(const tets::CellComplex& complex);
 
 /// \return the new cells
-std::vector<std::uint32_t> apply_change(tets::CellComplex& complex, tets::Change change);
+std::vector<CellId> apply_change(tets::CellComplex& complex, tets::Change change);
 
 /// The tetrahedra of a mesh as cells without neighbors.
 LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh);
@@ -76,7 +76,7 @@ PlanCounts expect_every_plan_is_sound(const tets::CellComplex& complex);
 std::set<Tetrahedron> cells_of(const tets::CellComplex& complex);
 
 /// The edge of the cell between two vertices, or 6.
-std::uint32_t edge_of_cell(const tets::CellComplex& complex, std::uint32_t cell, std::uint32_t a, std::uint32_t b);
+std::uint32_t edge_of_cell(const tets::CellComplex& complex, CellId cell, std::uint32_t a, std::uint32_t b);
 
 bool has_edge(const tets::CellComplex& complex, std::uint32_t a, std::uint32_t b);
 

@@ -30,7 +30,7 @@ bool is_integer(const Point3& p) {
 
 bool all_positive(const Star& star) {
   return std::all_of(star.faces.begin(), star.faces.end(),
-                     [&](const tets::StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, star.apex) > 0; });
+                     [&](const improve::StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, star.apex) > 0; });
 }
 
 /// Moves the apex and checks the invariants of every move; returns the quality before and after.
@@ -52,7 +52,7 @@ std::array<double, 2> move_checked(const tets::QualityGoal& goal, const improve:
 
 double radius(const Star& star) {
   double squared = 0;
-  for (const tets::StarFace& f : star.faces) squared = std::max(squared, squared_length(f.a - star.apex));
+  for (const improve::StarFace& f : star.faces) squared = std::max(squared, squared_length(f.a - star.apex));
   return std::sqrt(squared);
 }
 
@@ -82,13 +82,13 @@ double best_of_grids(const Star& star, const tets::QualityGoal& goal, std::span<
 constexpr std::array<Point3, 3> all_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// The eight faces of an octahedron of this radius around the origin, seen from inside.
-std::vector<tets::StarFace> octahedron(double size) {
-  std::vector<tets::StarFace> faces;
+std::vector<improve::StarFace> octahedron(double size) {
+  std::vector<improve::StarFace> faces;
   for (const double x : {-size, size}) {
     for (const double y : {-size, size}) {
       for (const double z : {-size, size}) {
         const Point3 a{x, 0, 0}, b{0, y, 0}, c{0, 0, z};
-        faces.push_back(numbers::orient3d(a, b, c, {}) > 0 ? tets::StarFace{a, b, c} : tets::StarFace{b, a, c});
+        faces.push_back(numbers::orient3d(a, b, c, {}) > 0 ? improve::StarFace{a, b, c} : improve::StarFace{b, a, c});
       }
     }
   }
@@ -289,8 +289,8 @@ TEST(MoveApex, NeverMakesAStarWorse) {
 
 TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
   const auto bad = [](const Star& star) {
-    return std::count_if(star.faces.begin(), star.faces.end(), [&](const tets::StarFace& f) {
-      return tets::cell_quality(usual, f.a, f.b, f.c, star.apex) < tets::goal_quality(usual);
+    return std::count_if(star.faces.begin(), star.faces.end(), [&](const improve::StarFace& f) {
+      return tets::cell_quality(usual, f.a, f.b, f.c, star.apex) < usual.good();
     });
   };
   int small_gains = 0, great_gains = 0;
@@ -312,7 +312,7 @@ TEST(MoveApex, SpoilsNoGoodTetrahedraForASmallGain) {
 TEST(MoveApex, LeavesAStarAloneThatIsGoodEnough) {
   Star star{octahedron(0x1p40), {0x1p36, 0, 0}};
   const auto [before, after] = move_checked(usual, {}, star);
-  EXPECT_GE(before, tets::goal_quality(usual));
+  EXPECT_GE(before, usual.good());
   EXPECT_EQ(after, before);
   EXPECT_EQ(star.apex, (Point3{0x1p36, 0, 0}));
 }
@@ -386,7 +386,7 @@ TEST(MoveApex, LeavesNearlyFlatPlacesAndStaysPositive) {
   }
   // The whole star is flat: no place in it is good.
   Star flat{octahedron(0x1p20), {0x1p18, 0x1p18, 0}};
-  for (tets::StarFace& f : flat.faces)
+  for (improve::StarFace& f : flat.faces)
     for (Point3* const p : {&f.a, &f.b, &f.c}) p->z *= 0x1p-18;
   move_checked(best_r, {}, flat);
   move_checked(best_sine, {}, flat);
@@ -408,7 +408,7 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
     Star near = here[i];
     // Moved by an exact vector, so that all differences are the same.
     Star shifted = near;
-    for (tets::StarFace& f : shifted.faces) f = {f.a + far, f.b + far, f.c + far};
+    for (improve::StarFace& f : shifted.faces) f = {f.a + far, f.b + far, f.c + far};
     shifted.apex = near.apex + far;
     EXPECT_EQ(move_checked(usual, {}, near), move_checked(usual, {}, shifted));
     EXPECT_EQ(shifted.apex, near.apex + far);
@@ -420,10 +420,10 @@ TEST(MoveApex, IsTheSameFarFromTheOrigin) {
 TEST(MoveApex, ReachesAGoalWhereASearchDoes) {
   int within_reach = 0, reached = 0;
   for (Star& star : jittered_stars(0.2, 9)) {
-    if (improve::worst_of_star(star.faces, usual, star.apex) >= tets::goal_quality(usual)) continue;
-    if (best_of_grids(star, usual, all_axes) < tets::goal_quality(usual)) continue;
+    if (improve::worst_of_star(star.faces, usual, star.apex) >= usual.good()) continue;
+    if (best_of_grids(star, usual, all_axes) < usual.good()) continue;
     ++within_reach;
-    if (move_checked(usual, {}, star)[1] >= tets::goal_quality(usual)) ++reached;
+    if (move_checked(usual, {}, star)[1] >= usual.good()) ++reached;
   }
   EXPECT_GE(within_reach, 2);
   EXPECT_EQ(reached, within_reach);

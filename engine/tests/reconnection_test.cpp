@@ -42,12 +42,12 @@ Model random_tetrahedra(std::mt19937& random) {
 /// With bad cells everywhere.
 tets::CellComplex bad_complex(std::mt19937& random) {
   tets::CellComplex x = complex_of(random_tetrahedra(random), goal);
-  steiner::StarLoosener loosener(x);
-  for (std::uint32_t v = 0; v < x.vertex_count(); v += 3) loosener.loosen(v, 250);
+  steiner::Loosening loosening;
+  for (std::uint32_t v = 0; v < x.vertex_count(); v += 3) loosen_star(x, v, 250, loosening);
   return x;
 }
 
-bool has_swap(const tets::CellComplex& x, std::uint32_t cell) {
+bool has_swap(const tets::CellComplex& x, CellId cell) {
   tets::Change change;
   for (std::uint32_t edge = 0; edge < 6; ++edge)
     if (plan_edge_removal(x, cell, edge, x.quality(cell), change)) return true;
@@ -62,16 +62,16 @@ TEST(Reconnection, FillsTheSameSpaceWithBetterCellsEvenWhereNoSwapDoes) {
   for (int i = 0; i < 30; ++i) {
     tets::CellComplex x = bad_complex(random);
     const Invariants before = invariants_of(x);
-    improve::Reconnection reconnection(x);
+    improve::ReconnectionScratch scratch;
     tets::Change change;
-    for (std::uint32_t c = 0; c < x.cell_count(); ++c) {
+    for (CellId c(0); c < x.cell_count(); c = CellId(c + 1)) {
       if (x.is_dead(c)) continue;
       const double quality = x.quality(c);
       const bool can_swap = has_swap(x, c);
-      if (!reconnection.plan(c, quality, change)) continue;
+      if (!improve::plan_reconnection(x, c, quality, scratch, change)) continue;
       ++plans, plans_without_swaps += !can_swap;
       EXPECT_NE(std::ranges::find(change.old_cells, c), change.old_cells.end());
-      EXPECT_TRUE(std::ranges::equal(reconnection.cells(), change.old_cells));
+      EXPECT_TRUE(scratch.cells.cells() == change.old_cells);
       for (const tets::NewCell& cell : change.new_cells) EXPECT_GT(cell.quality, quality);
       ASSERT_TRUE(x.all_positive(change));
       apply_change(x, change);
@@ -87,7 +87,8 @@ TEST(Reconnection, LeavesCellsAsGoodAsAnyAlone) {
   tets::CellComplex x =
       complex_of({.points = {{0, 0, 0}, {0, 4, 4}, {4, 0, 4}, {4, 4, 0}}, .cells = {{0, 1, 2, 3}}}, goal);
   tets::Change change;
-  EXPECT_FALSE(improve::Reconnection(x).plan(0, x.quality(0), change));
+  improve::ReconnectionScratch scratch;
+  EXPECT_FALSE(improve::plan_reconnection(x, CellId(0), x.quality(CellId(0)), scratch, change));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace ccdt::test {
 
 struct Star {
-  std::vector<tets::StarFace> faces;
+  std::vector<improve::StarFace> faces;
   Point3 apex;
 };
 

@@ -45,13 +45,18 @@ Model split_segment_in_ring(std::uint32_t size) {
   return model;
 }
 
+bool plan_removal(const tets::CellComplex& x, steiner::RemovalEffort effort, tets::Change& change) {
+  steiner::RemovalScratch scratch;
+  return steiner::plan_vertex_removal(x, 2, {0, 1}, effort, scratch, change);
+}
+
 TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdge) {
   for (std::uint32_t size = 4; size <= 12; size += 2) {
     SCOPED_TRACE(size);
     tets::CellComplex x = complex_of(split_segment_in_ring(size), goal);
     const auto volumes = invariants_of(x).sixfold_volumes;
     tets::Change change;
-    ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
+    ASSERT_TRUE(plan_removal(x, steiner::RemovalEffort::collapse, change));
     ASSERT_TRUE(x.all_positive(change));
     apply_change(x, change);
     expect_consistent(x);
@@ -79,14 +84,14 @@ TEST(VertexRemoval, MakesNoFaceOnTheHullOfTheCellsThatItReplaces) {
   for (const steiner::RemovalEffort effort : {steiner::RemovalEffort::collapse, steiner::RemovalEffort::fill}) {
     tets::CellComplex x = complex_of(model, goal);
     tets::Change change;
-    if (!steiner::VertexRemoval(x).plan(2, {0, 1}, effort, change)) continue;
+    if (!plan_removal(x, effort, change)) continue;
     apply_change(x, change);
     expect_consistent(x);
     EXPECT_FALSE(x.find_face(0, 3, 4));
   }
   tets::CellComplex x = complex_of(model, goal);
   tets::Change change;
-  EXPECT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
+  EXPECT_TRUE(plan_removal(x, steiner::RemovalEffort::collapse, change));
 }
 
 TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
@@ -97,7 +102,7 @@ TEST(VertexRemoval, LeavesNoGapsInTheMesh) {
   mesh.edges = {{0, 1}};
   const std::size_t faces = x.faces().size();
   tets::Change change;
-  ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
+  ASSERT_TRUE(plan_removal(x, steiner::RemovalEffort::collapse, change));
   apply_change(x, change);
   EXPECT_EQ(std::move(x).take_mesh(mesh).size(), 8u);
   EXPECT_EQ(mesh.faces.size(), faces - 2);
@@ -121,7 +126,7 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdgeWithoutFacets) {
     model.facet_of_face.clear();
     tets::CellComplex x = complex_of(model, goal);
     tets::Change change;
-    ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::collapse, change));
+    ASSERT_TRUE(plan_removal(x, steiner::RemovalEffort::collapse, change));
     apply_change(x, change);
     expect_consistent(x);
     EXPECT_TRUE(x.is_segment(0, 1));
@@ -131,7 +136,7 @@ TEST(VertexRemoval, MakesTheTwoPartsOfASegmentOneEdgeWithoutFacets) {
 TEST(VertexRemoval, SearchFindsTheSameTetrahedraWhereThereIsOnlyOneWay) {
   tets::CellComplex x = complex_of(split_segment_in_ring(4), goal);
   tets::Change change;
-  ASSERT_TRUE(steiner::VertexRemoval(x).plan(2, {0, 1}, steiner::RemovalEffort::fill, change));
+  ASSERT_TRUE(plan_removal(x, steiner::RemovalEffort::fill, change));
   apply_change(x, change);
   expect_consistent(x);
   EXPECT_TRUE(x.is_segment(0, 1));
@@ -162,15 +167,16 @@ Model split_segment_in_fog(std::mt19937& random) {
   return model;
 }
 
-TEST(CellShaker, MakesOnlyBetterCells) {
+TEST(ShakeCells, MakesOnlyBetterCells) {
   std::mt19937 random(3);
   std::size_t count = 0;
   for (int i = 0; i < 20; ++i) {
     tets::CellComplex x = complex_of(split_segment_in_fog(random), goal);
     const auto before = invariants_of(x);
     const double least = worst_quality(x) / 2;
-    std::vector<std::uint32_t> made;
-    tets::CellShaker(x).shake(2, 100, least, made);
+    std::vector<CellId> made;
+    std::mt19937 shakes(2);
+    tets::shake_cells(x, 2, 100, least, shakes, made);
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
     EXPECT_GT(worst_quality(x), least);
@@ -179,27 +185,27 @@ TEST(CellShaker, MakesOnlyBetterCells) {
   EXPECT_GT(count, 0u);
 }
 
-TEST(StarLoosener, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
+TEST(Loosening, ChangesOnlyCellsAndFacesOfTheSameVerticesAndFacets) {
   std::mt19937 random(1);
   for (int i = 0; i < 20; ++i) {
     tets::CellComplex x = complex_of(split_segment_in_fog(random), goal);
     const auto before = invariants_of(x);
     const auto cells = cells_of(x);
-    steiner::StarLoosener loosener(x);
-    loosener.loosen(2, 250);
+    steiner::Loosening loosening;
+    loosen_star(x, 2, 250, loosening);
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
     EXPECT_NE(cells_of(x), cells);
     EXPECT_TRUE(x.is_segment(0, 2) && x.is_segment(2, 1));
     const double worst = worst_quality(x);
-    loosener.tidy(2);
+    tidy_star(x, 2, loosening);
     expect_consistent(x);
     EXPECT_TRUE(invariants_of(x) == before);
     EXPECT_GE(worst_quality(x), worst);
   }
 }
 
-TEST(StarLoosener, LeavesAVertexWithFewerEdges) {
+TEST(Loosening, LeavesAVertexWithFewerEdges) {
   std::mt19937 random(2);
   for (int i = 0; i < 20; ++i) {
     tets::CellComplex x = complex_of(split_segment_in_fog(random), goal);
@@ -209,7 +215,8 @@ TEST(StarLoosener, LeavesAVertexWithFewerEdges) {
       return count;
     };
     const int before = edges();
-    steiner::StarLoosener(x).loosen(2, 250);
+    steiner::Loosening loosening;
+    loosen_star(x, 2, 250, loosening);
     EXPECT_LT(edges(), before);
   }
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "engine/base/count_work.h"
@@ -30,7 +29,7 @@ FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
   return face_key(a, b, c);
 }
 
-FaceKey key_of(const std::array<std::uint32_t, 3>& corners) {
+FaceKey key_of(const Triangle& corners) {
   return face_key(corners[0], corners[1], corners[2]);
 }
 
@@ -49,14 +48,14 @@ void Change::clear() {
   space_taken = empty_box;
 }
 
-CellComplex::CellComplex(std::vector<std::array<std::uint32_t, 3>> faces,
-                         std::span<const std::array<std::uint32_t, 2>> edges, LargeVector<Cell> cells,
-                         std::vector<int> regions, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
-                         std::uint32_t first_interior, const QualityGoal& goal)
+CellComplex::CellComplex(std::vector<Triangle> faces, std::span<const std::array<std::uint32_t, 2>> edges,
+                         LargeVector<Cell> cells, std::vector<int> regions, std::vector<Point3> points,
+                         std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior,
+                         const QualityGoal& goal)
     : goal_(goal),
       points_(std::move(points)),
       first_interior_(first_interior),
-      cell_at_(points_.size(), no_neighbor),
+      cell_at_(points_.size()),
       changed_at_(points_.size(), 0),
       merged_(first_interior, false),
       cells_(std::move(cells)),
@@ -104,12 +103,11 @@ void CellComplex::find_last_cells() {
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
     // Backwards, so that most vertices get their last cell at once.
     for (std::size_t i = end; i-- > begin;) {
-      const auto c = static_cast<std::uint32_t>(i);
+      const CellId c(i);
       for (const std::uint32_t v : cells_[c].vertices) {
         const std::atomic_ref last(cell_at_[v]);
-        std::uint32_t before = last.load(std::memory_order_relaxed);
-        while ((before == no_neighbor || before < c) &&
-               !last.compare_exchange_weak(before, c, std::memory_order_relaxed)) {
+        CellId before = last.load(std::memory_order_relaxed);
+        while ((before.is_none() || before < c) && !last.compare_exchange_weak(before, c, std::memory_order_relaxed)) {
         }
       }
     }
@@ -145,7 +143,7 @@ void CellComplex::join_open_faces() {
 /// Marks the faces on facets. Interior vertices are on none.
 void CellComplex::find_walls() {
   parallel_for(cells_.size(), grain, [&](std::size_t i) {
-    const auto c = static_cast<std::uint32_t>(i);
+    const CellId c(i);
     const auto& v = cells_[c].vertices;
     const auto interior = std::ranges::count_if(v, [&](std::uint32_t corner) { return is_interior(corner); });
     for (std::uint32_t f = 0; f < 4; ++f) {
@@ -154,12 +152,6 @@ void CellComplex::find_walls() {
         set_wall(face_code(c, f));
     }
   });
-}
-
-double CellComplex::worst_of(std::span<const std::uint32_t> cells) const {
-  double worst = std::numeric_limits<double>::infinity();
-  for (const std::uint32_t c : cells) worst = std::min(worst, qualities_[c]);
-  return worst;
 }
 
 bool CellComplex::all_positive(const Change& change) const {
@@ -181,19 +173,14 @@ std::size_t CellComplex::bytes() const {
 void CellComplex::find_cavity(const Change& change, Cavity& cavity) const {
   cavity.faces.clear(), cavity.lost_vertices.clear();
   // The old and new cells are few: comparing with all of them costs less than marks in another array.
-  const auto is_old = [&](std::uint32_t cell) {
-    return std::ranges::find(change.old_cells, cell) != change.old_cells.end();
-  };
   const auto stays = [&](std::uint32_t v) {
-    return std::ranges::any_of(change.new_cells, [&](const NewCell& cell) {
-      return std::ranges::find(cell.vertices, v) != cell.vertices.end();
-    });
+    return std::ranges::any_of(change.new_cells, [&](const NewCell& cell) { return has(cell.vertices, v); });
   };
-  for (const std::uint32_t c : change.old_cells) {
+  for (const CellId c : change.old_cells) {
     for (std::uint32_t f = 0; f < 4; ++f) {
       if (!stays(cells_[c].vertices[f])) cavity.lost_vertices.push_back(cells_[c].vertices[f]);
       const std::uint32_t outside = cells_[c].neighbors[f];
-      if (outside != no_neighbor && is_old(cell_of(outside))) continue;
+      if (outside != no_neighbor && has(change.old_cells, cell_of(outside))) continue;
       cavity.faces.push_back({key_of_face(cells_[c].vertices, f), outside, is_wall(face_code(c, f))});
     }
   }
@@ -205,13 +192,13 @@ bool CellComplex::has_changed_beyond(const Cavity& cavity, std::uint64_t since) 
   });
 }
 
-std::uint32_t CellComplex::take_place() {
+CellId CellComplex::take_place() {
   if (!free_.empty()) {
-    const std::uint32_t place = free_.back();
+    const CellId place = free_.back();
     free_.pop_back();
     return place;
   }
-  const auto place = static_cast<std::uint32_t>(cells_.size());
+  const CellId place(cells_.size());
   cells_.emplace_back();
   walls_.push_back(0);
   if (!regions_.empty()) regions_.push_back(0);
@@ -256,11 +243,11 @@ void CellComplex::merge_segment(const SegmentMerge& merge) {
   merged_[merge.vertex] = true;
 }
 
-void CellComplex::announce(Change& change, const Cavity& cavity, std::vector<std::uint32_t>& places) {
+void CellComplex::announce(Change& change, const Cavity& cavity, std::vector<CellId>& places) {
   if (change.new_vertex) {
     for (NewCell& cell : change.new_cells) cell.vertices[3] = static_cast<std::uint32_t>(points_.size());
     points_.push_back(*change.new_vertex);
-    cell_at_.push_back(no_neighbor);
+    cell_at_.emplace_back();
     changed_at_.push_back(0);
   }
   free_.insert(free_.end(), change.old_cells.begin(), change.old_cells.end());
@@ -270,19 +257,19 @@ void CellComplex::announce(Change& change, const Cavity& cavity, std::vector<std
     places.push_back(take_place());
     for (const std::uint32_t v : cell.vertices) cell_at_[v] = places.back(), changed_at_[v] = change_count_;
   }
-  for (const std::uint32_t v : cavity.lost_vertices) cell_at_[v] = no_neighbor;
+  for (const std::uint32_t v : cavity.lost_vertices) cell_at_[v] = {};
   // A later change may take the other places before this one's cavity is filled.
   const std::size_t unused = std::max(change.old_cells.size(), places.size()) - places.size();
-  for (const std::uint32_t c : std::span(free_).last(unused)) cells_[c].vertices[0] = ghost_vertex;
+  for (const CellId c : std::span(free_).last(unused)) cells_[c].vertices[0] = ghost_vertex;
 }
 
-void CellComplex::fill_cavity(const Change& change, std::span<const std::uint32_t> places, Cavity& cavity) {
+void CellComplex::fill_cavity(const Change& change, std::span<const CellId> places, Cavity& cavity) {
   work_done.cells_destroyed += change.old_cells.size();
   work_done.cells_created += change.new_cells.size();
-  for (const std::uint32_t c : change.old_cells) ++generations_[c];
+  for (const CellId c : change.old_cells) ++generations_[c];
   for (std::size_t i = 0; i < places.size(); ++i) {
     const NewCell& cell = change.new_cells[i];
-    const std::uint32_t c = places[i];
+    const CellId c = places[i];
     cells_[c].vertices = cell.vertices;
     walls_[c] = 0;
     if (!regions_.empty()) regions_[c] = cell.region;
@@ -295,30 +282,28 @@ void CellComplex::fill_cavity(const Change& change, std::span<const std::uint32_
   if (change.merge) merge_segment(*change.merge);
 }
 
-void CellComplex::apply(Change& change, std::vector<std::uint32_t>& made) {
+void CellComplex::apply(Change& change, std::vector<CellId>& made) {
   find_cavity(change, cavity_);
   announce(change, cavity_, made);
   fill_cavity(change, made, cavity_);
 }
 
-void CellComplex::announce_move(std::span<const std::uint32_t> corners) {
+void CellComplex::announce_move(std::uint32_t v, const Point3& place, std::span<const CellId> star) {
   ++change_count_;
-  for (const std::uint32_t v : corners) changed_at_[v] = change_count_;
-}
-
-void CellComplex::announce_faces(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star) {
-  if (!face_tree_) return;
-  for (const std::uint32_t c : star)
+  const bool moves_faces = face_tree_ && !is_interior(v);
+  for (const CellId c : star) {
     for (std::uint32_t f = 0; f < 4; ++f) {
-      if (cells_[c].vertices[f] == v || !is_wall(face_code(c, f))) continue;
-      const auto corners = corners_of_face(cells_[c].vertices, f);
-      if (const auto face = find_face(corners[0], corners[1], corners[2])) face_tree_->enlarge(*face, box_of(place));
+      changed_at_[cells_[c].vertices[f]] = change_count_;
+      if (!moves_faces || cells_[c].vertices[f] == v || !is_wall(face_code(c, f))) continue;
+      const auto [p, q, r] = corners_of(face_code(c, f));
+      if (const auto face = find_face(p, q, r)) face_tree_->enlarge(*face, box_of(place));
     }
+  }
 }
 
-void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star) {
+void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<const CellId> star) {
   points_[v] = place;
-  for (const std::uint32_t c : star) qualities_[c] = quality_of(cells_[c].vertices);
+  for (const CellId c : star) qualities_[c] = quality_of(cells_[c].vertices);
 }
 
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
@@ -338,7 +323,7 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
       cells_.size(), grain,
       [&](std::size_t c, std::size_t end) {
         std::size_t count = 0;
-        for (; c < end; ++c) count += !is_dead(static_cast<std::uint32_t>(c));
+        for (; c < end; ++c) count += !is_dead(CellId(c));
         return count;
       },
       [&](std::size_t count) {
@@ -348,7 +333,7 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
       },
       [&](std::size_t c, std::size_t end, std::size_t place) {
         for (; c < end; ++c) {
-          if (is_dead(static_cast<std::uint32_t>(c))) continue;
+          if (is_dead(CellId(c))) continue;
           const auto& v = cells_[c].vertices;
           mesh.tetrahedra[place] = {number[v[0]], number[v[1]], number[v[2]], number[v[3]]};
           if (!regions_.empty()) mesh.regions[place] = regions_[c];

@@ -18,8 +18,22 @@
 
 namespace ccdt::tets {
 
-using delaunay::Cell, delaunay::cell_of, delaunay::corners_of_face, delaunay::face_code, delaunay::face_of,
-    delaunay::ghost_vertex, delaunay::join_faces, delaunay::no_neighbor;
+using delaunay::Cell, delaunay::corners_of_face, delaunay::face_code, delaunay::face_of, delaunay::ghost_vertex,
+    delaunay::join_faces, delaunay::no_neighbor;
+
+/// The corners of a face.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The cell of a face code.
+constexpr CellId cell_of(std::uint32_t code) {
+  return CellId(delaunay::cell_of(code));
+}
+
+/// Is the value in the list?
+template <class List, class Value>
+bool has(const List& list, const Value& value) {
+  return std::ranges::find(list, value) != std::ranges::end(list);
+}
 
 /// A cell to be made.
 struct NewCell {
@@ -30,10 +44,10 @@ struct NewCell {
 
 /// A face on a facet gets other corners, or is no longer needed.
 struct FaceChange {
-  std::uint32_t face;                    ///< its number
-  std::array<std::uint32_t, 3> corners;  ///< the new ones, in the orientation of the facet; none: `no_corners`
+  std::uint32_t face;  ///< its number
+  Triangle corners;    ///< the new ones, in the orientation of the facet; none: `no_corners`
 };
-inline constexpr std::array<std::uint32_t, 3> no_corners = {ghost_vertex, ghost_vertex, ghost_vertex};
+inline constexpr Triangle no_corners = {ghost_vertex, ghost_vertex, ghost_vertex};
 
 /// A vertex inside a segment is removed: its edges to both neighbors on the segment become one.
 struct SegmentMerge {
@@ -43,7 +57,7 @@ struct SegmentMerge {
 
 /// A plan: cells to remove, and cells that fill the same space instead.
 struct Change {
-  std::vector<std::uint32_t> old_cells;
+  std::vector<CellId> old_cells;
   std::vector<NewCell> new_cells;
   std::vector<FaceChange> faces;     ///< on facets; together they cover the same parts of the same facets
   std::optional<Point3> new_vertex;  ///< its id is the number of vertices before the change
@@ -69,24 +83,6 @@ struct Cavity {
   std::vector<std::uint32_t> lost_vertices;  ///< of old cells, but of no new one
 };
 
-/// Marks of visited cells, for consecutive searches through a complex.
-class CellMarks {
- public:
-  /// Forgets all marks.
-  void clear(std::size_t cell_count) {
-    if (marks_.size() < cell_count) marks_.resize(cell_count, 0);
-    if (++search_ > 0) return;
-    std::ranges::fill(marks_, std::uint16_t{0});
-    ++search_;
-  }
-  void mark(std::uint32_t cell) { marks_[cell] = search_; }
-  bool is_marked(std::uint32_t cell) const { return marks_[cell] == search_; }
-
- private:
-  std::vector<std::uint16_t> marks_;  // the number of the last search that visited the cell
-  std::uint16_t search_ = 0;
-};
-
 /// A tetrahedral mesh that can be changed: cells know their neighbors, and which of their faces and edges must stay.
 ///
 /// As in the Delaunay tetrahedralization, but without ghosts: the code of a missing neighbor is `no_neighbor`. A *wall*
@@ -101,9 +97,9 @@ class CellComplex {
   /// \param points          the vertices of the mesh in grid units
   /// \param facet_of_face   the facet of each of the faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
-  CellComplex(std::vector<std::array<std::uint32_t, 3>> faces, std::span<const std::array<std::uint32_t, 2>> edges,
-              LargeVector<Cell> cells, std::vector<int> regions, std::vector<Point3> points,
-              std::vector<std::uint32_t> facet_of_face, std::uint32_t first_interior, const QualityGoal& goal);
+  CellComplex(std::vector<Triangle> faces, std::span<const std::array<std::uint32_t, 2>> edges, LargeVector<Cell> cells,
+              std::vector<int> regions, std::vector<Point3> points, std::vector<std::uint32_t> facet_of_face,
+              std::uint32_t first_interior, const QualityGoal& goal);
 
   const QualityGoal& goal() const { return goal_; }
   std::uint64_t change_count() const { return change_count_; }
@@ -113,24 +109,24 @@ class CellComplex {
   bool is_interior(std::uint32_t v) const { return v >= first_interior_; }
   bool is_removed(std::uint32_t v) const {
     // One of the PLC that is outside of the domain never had a cell.
-    return is_interior(v) ? cell_at_[v] == no_neighbor : merged_[v];
+    return is_interior(v) ? cell_at_[v].is_none() : merged_[v];
   }
-  /// A cell with the vertex; `no_neighbor` if the vertex was removed.
-  std::uint32_t cell_at(std::uint32_t v) const { return cell_at_[v]; }
+  /// A cell with the vertex; none if the vertex was removed.
+  CellId cell_at(std::uint32_t v) const { return cell_at_[v]; }
   /// The number of the last change around the vertex.
   std::uint64_t changed_at(std::uint32_t v) const { return changed_at_[v]; }
 
   /// Includes dead cells, whose places can be reused.
   std::size_t cell_count() const { return cells_.size(); }
   std::size_t dead_count() const { return free_.size(); }
-  const Cell& cell(std::uint32_t c) const { return cells_[c]; }
-  bool is_dead(std::uint32_t c) const { return cells_[c].vertices[0] == ghost_vertex; }
-  int region(std::uint32_t c) const { return regions_.empty() ? 0 : regions_[c]; }
-  double quality(std::uint32_t c) const { return qualities_[c]; }
+  const Cell& cell(CellId c) const { return cells_[c]; }
+  bool is_dead(CellId c) const { return cells_[c].vertices[0] == ghost_vertex; }
+  int region(CellId c) const { return regions_.empty() ? 0 : regions_[c]; }
+  double quality(CellId c) const { return qualities_[c]; }
   /// How often the place of the cell was reused, modulo 2^16.
-  std::uint16_t generation(std::uint32_t c) const { return generations_[c]; }
+  std::uint16_t generation(CellId c) const { return generations_[c]; }
   /// The position of a vertex in one of its cells.
-  std::uint32_t place(std::uint32_t c, std::uint32_t v) const {
+  std::uint32_t place(CellId c, std::uint32_t v) const {
     const auto& all = cells_[c].vertices;
     return all[0] == v ? 0 : all[1] == v ? 1 : all[2] == v ? 2 : 3;
   }
@@ -138,10 +134,14 @@ class CellComplex {
   std::uint32_t across(std::uint32_t code) const { return cells_[cell_of(code)].neighbors[face_of(code)]; }
   /// The vertex opposite to the face in its cell.
   std::uint32_t apex_of(std::uint32_t code) const { return cells_[cell_of(code)].vertices[face_of(code)]; }
+  /// The corners of the face, its cell above.
+  Triangle corners_of(std::uint32_t code) const {
+    return corners_of_face(cells_[cell_of(code)].vertices, face_of(code));
+  }
   bool is_wall(std::uint32_t code) const { return (walls_[cell_of(code)] >> face_of(code) & 1) != 0; }
 
   /// The faces on facets, and the facet of each.
-  const std::vector<std::array<std::uint32_t, 3>>& faces() const { return faces_; }
+  const std::vector<Triangle>& faces() const { return faces_; }
   const std::vector<std::uint32_t>& facet_of_face() const { return facet_of_face_; }
   /// The axis closest to the normal of a facet, on its upper side: 1, 2 or 3, or -1, -2 or -3.
   facets::FacetAxis axis_of_facet(std::uint32_t facet) const { return facet_axes_[facet]; }
@@ -158,7 +158,7 @@ class CellComplex {
   }
 
   /// The box of a face with these corners.
-  Box box_of_face(const std::array<std::uint32_t, 3>& corners) const {
+  Box box_of_face(const Triangle& corners) const {
     return bounding_box(std::array{points_[corners[0]], points_[corners[1]], points_[corners[2]]});
   }
   /// Calls visit(face) for all faces whose boxes meet the given one. Slow unless the faces are indexed.
@@ -177,8 +177,6 @@ class CellComplex {
   double quality_of(const std::array<std::uint32_t, 4>& v) const {
     return cell_quality(goal_, points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
   }
-  /// The quality of the worst of some cells.
-  double worst_of(std::span<const std::uint32_t> cells) const;
   /// Exactly: are all new cells positive? With the same hull as the old ones they then fill the same space, once.
   bool all_positive(const Change& change) const;
 
@@ -187,7 +185,7 @@ class CellComplex {
 
   /// Applies a change whose cells are all positive. Interior vertices without new cells are removed.
   /// \param made  the new cells
-  void apply(Change& change, std::vector<std::uint32_t>& made);
+  void apply(Change& change, std::vector<CellId>& made);
 
   // The parts of `apply`. Several cavities can be found at the same time. Changes are announced in order. Several
   // announced ones can be made at the same time if they leave the surface alone and no two cavities have a common face.
@@ -195,20 +193,19 @@ class CellComplex {
   void find_cavity(const Change& change, Cavity& cavity) const;
   /// Chooses places for the new cells, and notes the change at its vertices. The new vertex gets its number: another
   /// one than planned if vertices have been inserted since.
-  void announce(Change& change, const Cavity& cavity, std::vector<std::uint32_t>& places);
+  void announce(Change& change, const Cavity& cavity, std::vector<CellId>& places);
   /// \param cavity  is used up
-  void fill_cavity(const Change& change, std::span<const std::uint32_t> places, Cavity& cavity);
+  void fill_cavity(const Change& change, std::span<const CellId> places, Cavity& cavity);
   /// May a later change than this one have replaced the cell beyond a face of the cavity?
   bool has_changed_beyond(const Cavity& cavity, std::uint64_t since) const;
 
   // The parts of a move. Several announced ones can be made at the same time if no two stars have a common cell.
 
-  /// \param corners  of all cells around the vertex, in any order, some repeatedly
-  void announce_move(std::span<const std::uint32_t> corners);
-  /// Notes that the faces around a vertex that is not interior will be where it moves to.
-  void announce_faces(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
+  /// Notes the change at the vertices of `star`, the cells around a vertex, and that the faces around one that is not
+  /// interior will be where it moves to.
+  void announce_move(std::uint32_t v, const Point3& place, std::span<const CellId> star);
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
-  void move_vertex(std::uint32_t v, const Point3& place, std::span<const std::uint32_t> star);
+  void move_vertex(std::uint32_t v, const Point3& place, std::span<const CellId> star);
 
   /// Writes the result back to the mesh that the complex was made of: tetrahedra, regions, and faces. The edges on
   /// segments get the new numbers of their vertices. What was removed leaves no gaps.
@@ -222,7 +219,7 @@ class CellComplex {
   void find_facet_axes();
   void find_walls();
   void find_last_cells();
-  std::uint32_t take_place();
+  CellId take_place();
   void set_wall(std::uint32_t code);
   void connect(std::uint32_t code, const std::vector<FaceChange>& new_walls, std::vector<Cavity::Face>& open);
   void change_faces(const std::vector<FaceChange>& changes);
@@ -234,7 +231,7 @@ class CellComplex {
   // By vertex.
   std::vector<Point3> points_;  // grid units
   std::uint32_t first_interior_ = 0;
-  std::vector<std::uint32_t> cell_at_;
+  std::vector<CellId> cell_at_;
   std::vector<std::uint64_t> changed_at_;
   std::vector<bool> merged_;  // below the first interior one: removed from its segment
 
@@ -244,12 +241,12 @@ class CellComplex {
   std::vector<int> regions_;       // empty: one region
   RawVector<double> qualities_;
   RawVector<std::uint16_t> generations_;
-  std::vector<std::uint32_t> free_;  // places of dead cells
+  std::vector<CellId> free_;  // places of dead cells
 
   // The surface.
   HashSet<std::uint64_t> segments_;               // edges that lie on segments
   HashTable<FaceKey, std::uint32_t> face_table_;  // places in `faces_`
-  std::vector<std::array<std::uint32_t, 3>> faces_;
+  std::vector<Triangle> faces_;
   std::vector<std::uint32_t> facet_of_face_;
   std::vector<facets::FacetAxis> facet_axes_;  // by facet
   std::optional<BoxTree> face_tree_;           // its boxes may be too large; none until the faces are indexed

@@ -1,9 +1,7 @@
 #include "engine/tets/cell_quality.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "engine/base/count_work.h"
 #include "engine/numbers/filters.h"
@@ -14,14 +12,14 @@ namespace {
 
 // The edges u, v, w of a tetrahedron lead from its apex to the corners of its base.
 
-CCDT_ALWAYS_INLINE double inverse_r_of(const Point3& u, const Point3& v, const Point3& w) {
+CCDT_ALWAYS_INLINE double inverse_r_from(const Point3& u, const Point3& v, const Point3& w) {
   const double det = dot(u, cross(w, v));
   const double mean =
       0.5 * (squared_length(u) + squared_length(v) + squared_length(w)) - (dot(u, v) + dot(v, w) + dot(w, u)) / 3;
-  return std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
+  return inverse_r_of(det, mean);
 }
 
-CCDT_ALWAYS_INLINE double least_sine_of(const Point3& u, const Point3& v, const Point3& w) {
+CCDT_ALWAYS_INLINE double least_sine_from(const Point3& u, const Point3& v, const Point3& w) {
   const Point3 vw = cross(w, v), wu = cross(u, w), uv = cross(v, u);
   const double det = dot(u, vw);
   // Squares of twice the areas of the faces opposite to a, b, c, d, inverted.
@@ -47,7 +45,7 @@ struct Edges {
 CCDT_WIDE_LANES void measure(const Edges& e, double least_shape, double offset, std::array<double, lanes>& qualities) {
   for (std::size_t i = 0; i < lanes; ++i) {
     const Point3 u{e.ux[i], e.uy[i], e.uz[i]}, v{e.vx[i], e.vy[i], e.vz[i]}, w{e.wx[i], e.wy[i], e.wz[i]};
-    const double shape = inverse_r_of(u, v, w), sine = offset + least_sine_of(u, v, w);
+    const double shape = inverse_r_from(u, v, w), sine = offset + least_sine_from(u, v, w);
     qualities[i] = shape < least_shape ? shape : sine;
   }
 }
@@ -55,25 +53,24 @@ CCDT_WIDE_LANES void measure(const Edges& e, double least_shape, double offset, 
 }  // namespace
 
 double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  return inverse_r_of(a - d, b - d, c - d);
+  return inverse_r_from(a - d, b - d, c - d);
 }
 
 double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  return least_sine_of(a - d, b - d, c - d);
+  return least_sine_from(a - d, b - d, c - d);
 }
 
 double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   ++work_done.quality_evaluations;
-  if (goal.objective == Objective::dihedral) return least_sine(a, b, c, d);
-  const double shape = inverse_r(a, b, c, d);
-  return shape < goal.inverse_r ? shape : 1 + least_sine(a, b, c, d);
+  if (goal.is_of_r())
+    if (const double shape = inverse_r(a, b, c, d); shape < goal.inverse_r) return shape;
+  return goal.offset() + least_sine(a, b, c, d);
 }
 
 void compute_qualities(const QualityGoal& goal, std::span<const Point3> points, std::span<const delaunay::Cell> cells,
                        std::span<double> qualities) {
   work_done.quality_evaluations += cells.size();
-  const bool by_r = goal.objective == Objective::r;
-  const double least_shape = by_r ? goal.inverse_r : -std::numeric_limits<double>::infinity();
+  const double least_shape = goal.is_of_r() ? goal.inverse_r : -std::numeric_limits<double>::infinity();
   Edges e{};
   std::array<double, lanes> some;
   for (std::size_t first = 0; first < cells.size(); first += lanes) {
@@ -86,13 +83,9 @@ void compute_qualities(const QualityGoal& goal, std::span<const Point3> points, 
       e.vx[i] = v.x, e.vy[i] = v.y, e.vz[i] = v.z;
       e.wx[i] = w.x, e.wy[i] = w.y, e.wz[i] = w.z;
     }
-    measure(e, least_shape, by_r ? 1 : 0, some);
+    measure(e, least_shape, goal.offset(), some);
     std::copy_n(some.begin(), count, qualities.begin() + static_cast<std::ptrdiff_t>(first));
   }
-}
-
-double goal_quality(const QualityGoal& goal) {
-  return goal.objective == Objective::dihedral ? goal.sine : 1 + goal.sine;
 }
 
 }  // namespace ccdt::tets

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <span>
 
 #include "engine/base/point.h"
@@ -13,7 +15,20 @@ struct QualityGoal {
   Objective objective = Objective::r;
   double inverse_r = 0.5;
   double sine = 0.34;
+
+  bool is_of_r() const { return objective == Objective::r; }
+  /// What is added to sines: for `Objective::r`, they are above all values of 1 / r that have not reached the goal.
+  double offset() const { return is_of_r() ? 1 : 0; }
+  /// The quality to reach first.
+  double first() const { return is_of_r() ? inverse_r : sine; }
+  /// The quality from which a tetrahedron is good enough.
+  double good() const { return offset() + sine; }
 };
+
+/// 1 / r of a tetrahedron of this determinant and mean square of its edges.
+inline double inverse_r_of(double det, double mean) {
+  return std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
+}
 
 /// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m the mean square of the six edges. The apex d
 /// is above abc in a positive tetrahedron.
@@ -29,9 +44,6 @@ double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point
 /// For `Objective::r` it is 1 / r up to the goal; from there on, it is 1 plus the least sine of the dihedral angles: r
 /// comes first, angles decide where r is good.
 double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
-
-/// The quality from which a tetrahedron is good enough.
-double goal_quality(const QualityGoal& goal);
 
 /// The qualities of many cells, bit for bit those of `cell_quality`.
 void compute_qualities(const QualityGoal& goal, std::span<const Point3> points, std::span<const delaunay::Cell> cells,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <vector>
 
 #include "engine/numbers/predicates.h"
@@ -11,13 +10,6 @@
 
 namespace ccdt::tets {
 namespace {
-
-using Triangle = std::array<std::uint32_t, 3>;
-
-template <std::size_t size>
-bool has(const std::array<std::uint32_t, size>& corners, std::uint32_t v) {
-  return std::ranges::find(corners, v) != corners.end();
-}
 
 /// The points of the corners, from the given one on.
 std::array<Point3, 3> points_from(const CellComplex& x, const Triangle& t, std::uint32_t first) {
@@ -55,7 +47,7 @@ class FacetChange {
     // An old face on the boundary has one cell, another one has two.
     const auto mine = std::ranges::find_if(change.faces, [&](const FaceChange& f) { return is_mine(f); });
     const Triangle& old = x.faces()[mine->face];
-    for (const std::uint32_t c : change.old_cells) {
+    for (const CellId c : change.old_cells) {
       const auto& v = x.cell(c).vertices;
       if (!std::ranges::all_of(old, [&](std::uint32_t corner) { return has(v, corner); })) continue;
       is_on_boundary_ = inside_ == 0;

@@ -17,21 +17,14 @@ constexpr int most_search_steps = 200;
 /// Calls visit(v) for the vertices of a set.
 template <class Visit>
 void for_each(std::uint32_t set, const Visit& visit) {
-  for (; set != 0; set &= set - 1) visit(static_cast<std::uint8_t>(std::countr_zero(set)));
+  for (; set != 0; set &= set - 1) visit(static_cast<Corner>(std::countr_zero(set)));
 }
 
-template <class Triangle>
-std::uint32_t corner_set(const Triangle& t) {
+std::uint32_t corner_set(const CornerTriangle& t) {
   return corner_bit(t[0]) | corner_bit(t[1]) | corner_bit(t[2]);
 }
 
-template <class Triangle>
-bool is_corner(const Triangle& t, std::uint8_t v) {
-  return t[0] == v || t[1] == v || t[2] == v;
-}
-
-template <class Triangle>
-bool are_same(const Triangle& s, const Triangle& t) {
+bool are_same(const CornerTriangle& s, const CornerTriangle& t) {
   for (int i = 0; i < 3; ++i)
     if (s[0] == t[i]) return s[1] == t[(i + 1) % 3] && s[2] == t[(i + 2) % 3];
   return false;
@@ -44,41 +37,43 @@ CornerSet opposite(const Sides& sides, Corner v) {
 }
 
 /// The sides of a tetrahedron on a base, except the base, as the outside sees them.
-template <class Triangle>
-std::array<Triangle, 3> sides_on(const Triangle& base, std::uint8_t apex) {
+std::array<CornerTriangle, 3> sides_on(const CornerTriangle& base, Corner apex) {
   const auto& [a, b, c] = base;
-  return {Triangle{a, b, apex}, Triangle{b, c, apex}, Triangle{c, a, apex}};
+  return {CornerTriangle{a, b, apex}, CornerTriangle{b, c, apex}, CornerTriangle{c, a, apex}};
 }
 
 }  // namespace
 
-bool PolyhedronFiller::fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, double least,
+bool PolyhedronFiller::fill(const CellComplex& x, const std::vector<Triangle>& hull, int region, double least,
                             std::vector<NewCell>& cells) {
+  goal_ = x.goal();
   least_ = least;
-  if (!load(hull) || !(join_to_vertex() || search())) return false;
+  if (!load(x, hull) || !(join_to_vertex() || search())) return false;
   for (const auto& [a, b, c, d] : tetrahedra_) {
     const std::array vertices = {vertices_[a], vertices_[b], vertices_[c], vertices_[d]};
-    cells.push_back({vertices, region, x_.quality_of(vertices)});
+    cells.push_back({vertices, region, x.quality_of(vertices)});
   }
   return true;
 }
 
-bool PolyhedronFiller::load(const std::vector<std::array<std::uint32_t, 3>>& hull) {
-  vertices_.clear();
-  points_.clear();
-  hull_.clear();
-  for (const auto& [a, b, c] : hull) hull_.push_back({corner_of(a), corner_of(b), corner_of(c)});
+/// Numbers the vertices. \return false: they are too many
+bool PolyhedronFiller::load(const CellComplex& x, const std::vector<Triangle>& hull) {
+  vertices_.clear(), points_.clear(), hull_.clear();
+  const auto corner_of = [&](std::uint32_t vertex) {
+    const auto found = std::ranges::find(vertices_, vertex);
+    const auto corner = static_cast<Corner>(found - vertices_.begin());
+    if (found == vertices_.end()) vertices_.push_back(vertex), points_.push_back(x.point(vertex));
+    return corner;
+  };
+  for (const auto& [a, b, c] : hull) {
+    const Corner first = corner_of(a), second = corner_of(b);
+    hull_.push_back({first, second, corner_of(c)});
+  }
   return vertices_.size() <= most_vertices;
 }
 
-Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
-  const auto found = std::ranges::find(vertices_, vertex);
-  const auto corner = static_cast<Corner>(found - vertices_.begin());
-  if (found == vertices_.end()) {
-    vertices_.push_back(vertex);
-    points_.push_back(x_.point(vertex));
-  }
-  return corner;
+double PolyhedronFiller::quality_on(const CornerTriangle& t, Corner apex) const {
+  return cell_quality(goal_, points_[t[0]], points_[t[1]], points_[t[2]], points_[apex]);
 }
 
 /// Joins all faces to the vertex for which the worst tetrahedron is best. That is far cheaper than a search.
@@ -86,28 +81,27 @@ Corner PolyhedronFiller::corner_of(std::uint32_t vertex) {
 bool PolyhedronFiller::join_to_vertex() {
   double best_quality = least_;
   std::optional<Corner> best;
-  const auto n = static_cast<Corner>(vertices_.size());
-  for (Corner v = 0; v < n; ++v) {
+  for (Corner v = 0; v < vertices_.size(); ++v) {
     const double quality = quality_from(v, best_quality);
     if (quality > best_quality && keeps_all_faces(v)) best_quality = quality, best = v;
   }
   tetrahedra_.clear();
   if (!best) return false;
-  for (const Triangle& t : hull_)
-    if (!is_corner(t, *best)) tetrahedra_.push_back({t[0], t[1], t[2], *best});
+  for (const CornerTriangle& t : hull_)
+    if (!has(t, *best)) tetrahedra_.push_back({t[0], t[1], t[2], *best});
   return true;
 }
 
 /// The quality of the worst tetrahedron between a vertex and the faces; something up to `least` if it is not better.
 double PolyhedronFiller::quality_from(Corner v, double least) const {
-  const auto sees = [&](const Triangle& t) {
-    return is_corner(t, v) || numbers::orient3d(points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > 0;
+  const auto sees = [&](const CornerTriangle& t) {
+    return has(t, v) || numbers::orient3d(points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > 0;
   };
   if (!std::ranges::all_of(hull_, sees)) return least;
   double worst = std::numeric_limits<double>::infinity();
-  for (const Triangle& t : hull_) {
-    if (is_corner(t, v)) continue;
-    worst = std::min(worst, cell_quality(x_.goal(), points_[t[0]], points_[t[1]], points_[t[2]], points_[v]));
+  for (const CornerTriangle& t : hull_) {
+    if (has(t, v)) continue;
+    worst = std::min(worst, quality_on(t, v));
     if (!(worst > least)) return least;
   }
   return worst;
@@ -144,22 +138,20 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
 
 /// Is there a vertex that makes a good tetrahedron with a face? The least quality is often that of the best one on a
 /// face that must stay. Then no search succeeds.
-bool PolyhedronFiller::has_apex(const Triangle& t) const {
-  const auto n = static_cast<Corner>(vertices_.size());
-  for (Corner v = 0; v < n; ++v)
-    if (!is_corner(t, v) && cell_quality(x_.goal(), points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > least_)
-      return true;
+bool PolyhedronFiller::has_apex(const CornerTriangle& t) const {
+  for (Corner v = 0; v < vertices_.size(); ++v)
+    if (!has(t, v) && quality_on(t, v) > least_) return true;
   return false;
 }
 
 /// Searches from the whole polyhedron.
 bool PolyhedronFiller::search() {
-  if (!std::ranges::all_of(hull_, [&](const Triangle& t) { return has_apex(t); })) return false;
+  if (!std::ranges::all_of(hull_, [&](const CornerTriangle& t) { return has_apex(t); })) return false;
   sides_.find(points_);
   find_free_edges();
   front_.clear(), saved_front_.clear();
   edges_.fill(0);
-  for (const Triangle& t : hull_) add_front(t);
+  for (const CornerTriangle& t : hull_) add_front(t);
   steps_left_ = most_search_steps;
   return search_on();
 }
@@ -168,7 +160,7 @@ void PolyhedronFiller::find_free_edges() {
   const auto n = static_cast<Corner>(vertices_.size());
   const auto all = static_cast<CornerSet>((std::uint64_t{1} << n) - 1);
   for (Corner v = 0; v < n; ++v) free_edges_[v] = all & ~corner_bit(v);
-  for (const Triangle& t : hull_) {
+  for (const CornerTriangle& t : hull_) {
     const Sides both = sides_.of(t[0], t[1], t[2]);
     for_each(both.above, [&](Corner p) {
       for_each(both.below & free_edges_[p], [&](Corner q) {
@@ -180,7 +172,7 @@ void PolyhedronFiller::find_free_edges() {
   }
 }
 
-void PolyhedronFiller::add_front(const Triangle& t) {
+void PolyhedronFiller::add_front(const CornerTriangle& t) {
   const auto& [a, b, c] = t;
   const Sides both = sides_.of(a, b, c);
   front_.push_back({t, both, both.above & free_edges_[a] & free_edges_[b] & free_edges_[c]});
@@ -197,11 +189,11 @@ bool PolyhedronFiller::search_on() {
   for (const FrontFace& face : front_) on_front |= corner_set(face.corners);
   const auto count = [&](const FrontFace& face) { return std::popcount(face.apexes & on_front); };
   const FrontFace fewest = *std::ranges::min_element(front_, {}, count);
-  const Triangle& base = fewest.corners;
+  const CornerTriangle& base = fewest.corners;
   std::array<std::pair<double, Corner>, most_vertices> trials;
   std::size_t trial_count = 0;
   for_each(fewest.apexes & on_front, [&](Corner apex) {
-    const double quality = cell_quality(x_.goal(), points_[base[0]], points_[base[1]], points_[base[2]], points_[apex]);
+    const double quality = quality_on(base, apex);
     if (quality > least_) trials[trial_count++] = {-quality, apex};
   });
   std::sort(trials.begin(), trials.begin() + static_cast<std::ptrdiff_t>(trial_count));
@@ -222,9 +214,9 @@ bool PolyhedronFiller::search_on() {
 }
 
 /// Does the tetrahedron contain a vertex, or cross edges or the front?
-bool PolyhedronFiller::is_blocked(const Triangle& base, Corner apex) const {
+bool PolyhedronFiller::is_blocked(const CornerTriangle& base, Corner apex) const {
   CornerSet within = sides_.of(base[0], base[1], base[2]).above;
-  for (const Triangle& side : sides_on(base, apex)) {
+  for (const CornerTriangle& side : sides_on(base, apex)) {
     within &= sides_.of(side[0], side[1], side[2]).below;
     if (is_pierced(side)) return true;
   }
@@ -236,7 +228,7 @@ bool PolyhedronFiller::is_blocked(const Triangle& base, Corner apex) const {
   });
 }
 
-bool PolyhedronFiller::is_pierced(const Triangle& t) const {
+bool PolyhedronFiller::is_pierced(const CornerTriangle& t) const {
   const Sides both = sides_.of(t[0], t[1], t[2]);
   bool found = false;
   for_each(both.above, [&](Corner p) {
@@ -246,12 +238,12 @@ bool PolyhedronFiller::is_pierced(const Triangle& t) const {
 }
 
 /// Puts a tetrahedron onto a face of the front. \return false: one of its sides cannot be there
-bool PolyhedronFiller::put(const Triangle& base, Corner apex) {
-  const auto find = [&](const Triangle& t) {
+bool PolyhedronFiller::put(const CornerTriangle& base, Corner apex) {
+  const auto find = [&](const CornerTriangle& t) {
     return std::ranges::find_if(front_, [&](const FrontFace& face) { return are_same(face.corners, t); });
   };
   front_.erase(find(base));
-  for (const Triangle& side : sides_on(base, apex)) {
+  for (const CornerTriangle& side : sides_on(base, apex)) {
     const auto& [a, b, c] = side;
     const auto twin = find({b, a, c});
     if (twin != front_.end()) {

@@ -20,8 +20,6 @@ namespace ccdt::tets {
 /// two of them or is one of the polyhedron. The tests for crossings only cut the search short.
 class PolyhedronFiller {
  public:
-  explicit PolyhedronFiller(const CellComplex& complex) : x_(complex) {}
-
   /// A polyhedron with more vertices is not tried.
   static constexpr std::size_t most_vertices = VertexSides::most_vertices;
 
@@ -31,46 +29,44 @@ class PolyhedronFiller {
   /// \param least  all tetrahedra are better than this
   /// \param cells  get the tetrahedra
   /// \return       were they found? The search gives up after a number of steps.
-  bool fill(const std::vector<std::array<std::uint32_t, 3>>& hull, int region, double least,
+  bool fill(const CellComplex& complex, const std::vector<Triangle>& hull, int region, double least,
             std::vector<NewCell>& cells);
 
  private:
-  using Triangle = std::array<Corner, 3>;
-
   /// A face between what is filled and what is not; the latter is above.
   struct FrontFace {
-    Triangle corners;
+    CornerTriangle corners;
     Sides sides;
     CornerSet apexes;  ///< possible ones if nothing were filled yet
   };
   /// By vertex: the other ends of edges.
   using EdgeSets = std::array<CornerSet, most_vertices>;
 
-  bool load(const std::vector<std::array<std::uint32_t, 3>>& hull);
-  Corner corner_of(std::uint32_t vertex);
+  bool load(const CellComplex& complex, const std::vector<Triangle>& hull);
   void find_free_edges();
-  void add_front(const Triangle& t);
+  void add_front(const CornerTriangle& t);
   bool join_to_vertex();
+  double quality_on(const CornerTriangle& t, Corner apex) const;
   double quality_from(Corner v, double least) const;
   bool keeps_all_faces(Corner v) const;
-  bool has_apex(const Triangle& t) const;
+  bool has_apex(const CornerTriangle& t) const;
   bool search();
   bool search_on();
-  bool is_blocked(const Triangle& base, Corner apex) const;
-  bool is_pierced(const Triangle& t) const;
-  bool put(const Triangle& base, Corner apex);
+  bool is_blocked(const CornerTriangle& base, Corner apex) const;
+  bool is_pierced(const CornerTriangle& t) const;
+  bool put(const CornerTriangle& base, Corner apex);
 
-  const CellComplex& x_;
+  QualityGoal goal_;
+  double least_ = 0;
   std::vector<std::uint32_t> vertices_;
   std::vector<Point3> points_;
-  std::vector<Triangle> hull_;
+  std::vector<CornerTriangle> hull_;
   VertexSides sides_;
   EdgeSets free_edges_{};  // those that do not cross the hull
   std::vector<FrontFace> front_;
   std::vector<FrontFace> saved_front_;  // of all steps of the search, one after the other
   EdgeSets edges_{};                    // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
-  double least_ = 0;
   int steps_left_ = 0;
 };
 

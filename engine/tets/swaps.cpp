@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Ring {
   std::uint32_t a, b;
   std::array<std::uint32_t, longest_ring + 1> vertices;
-  std::array<std::uint32_t, longest_ring> cells;
+  std::array<CellId, longest_ring> cells;
   std::uint32_t size = 0;        ///< of the cells
   bool is_closed = false;        ///< the last vertex is the first again
   std::uint32_t begin_wall = 0;  ///< the face code of the wall at vertex 0, in cell 0
@@ -34,8 +34,8 @@ struct Ring {
 /// \param visit  called with each cell that is entered and its fourth vertex; false ends the walk
 /// \return       the code of the wall that ends the walk, as the cell before it calls it; `no_neighbor`: `visit` did
 template <class Visit>
-std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b, std::uint32_t cell,
-                          std::uint32_t from, const Visit& visit) {
+std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b, CellId cell, std::uint32_t from,
+                          const Visit& visit) {
   while (true) {
     const std::uint32_t leaving = face_code(cell, x.place(cell, from));
     if (x.is_wall(leaving)) return leaving;
@@ -51,14 +51,14 @@ std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b
 }
 
 /// \return false: the ring is too long
-bool find_ring(const CellComplex& x, std::uint32_t cell, std::uint32_t before, std::uint32_t after, Ring& ring) {
+bool find_ring(const CellComplex& x, CellId cell, std::uint32_t before, std::uint32_t after, Ring& ring) {
   ring.size = 1;
   ring.is_closed = false;
   ring.cells[0] = cell;
   ring.vertices[0] = before;
   ring.vertices[1] = after;
   bool fits = true;
-  ring.end_wall = walk_around(x, ring.a, ring.b, cell, before, [&](std::uint32_t next, std::uint32_t vertex) {
+  ring.end_wall = walk_around(x, ring.a, ring.b, cell, before, [&](CellId next, std::uint32_t vertex) {
     ring.is_closed = next == cell;
     fits = ring.size < longest_ring;
     if (ring.is_closed || !fits) return false;
@@ -69,7 +69,7 @@ bool find_ring(const CellComplex& x, std::uint32_t cell, std::uint32_t before, s
   if (ring.is_closed) return true;
   if (!fits) return false;
   // There is a wall: the cells on the other side of the first cell come before it.
-  ring.begin_wall = walk_around(x, ring.a, ring.b, cell, after, [&](std::uint32_t next, std::uint32_t vertex) {
+  ring.begin_wall = walk_around(x, ring.a, ring.b, cell, after, [&](CellId next, std::uint32_t vertex) {
     fits = ring.size < longest_ring;
     if (!fits) return false;
     std::copy_backward(ring.cells.begin(), ring.cells.begin() + ring.size, ring.cells.begin() + ring.size + 1);
@@ -200,7 +200,7 @@ class SandwichedFaces {
   /// Removes a face with the cells on its two sides. Each of its edges is at the rim, or the next face is removed as
   /// well.
   /// \return the quality of the worst new cell; when that is not above `least`, not all of them were made
-  double add_face(std::uint32_t upper, std::uint32_t lower, const std::array<std::uint32_t, 3>& corners, int edges) {
+  double add_face(CellId upper, CellId lower, const Triangle& corners, int edges) {
     change_.old_cells.push_back(upper);
     change_.old_cells.push_back(lower);
     double worst = infinity;
@@ -211,11 +211,11 @@ class SandwichedFaces {
 
  private:
   /// The edge uv of a face whose third corner is w: at the rim, or crossed where that is better.
-  double add_edge(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
+  double add_edge(CellId upper, CellId lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
     const std::array<std::uint32_t, 4> rim = {below_, above_, u, v};
     const double at_rim = x_.quality_of(rim);
     const std::size_t olds = change_.old_cells.size(), news = change_.new_cells.size();
-    if (at_rim < goal_quality(x_.goal()) && !x_.is_segment(u, v)) {
+    if (at_rim < x_.goal().good() && !x_.is_segment(u, v)) {
       const double crossed = cross(upper, lower, u, v, w);
       if (crossed > at_rim) return crossed;
     }
@@ -226,15 +226,15 @@ class SandwichedFaces {
   }
 
   /// \return the quality that crossing the edge gives; -1 if the next face is not between the same vertices
-  double cross(std::uint32_t upper, std::uint32_t lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
+  double cross(CellId upper, CellId lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
     if (change_.old_cells.size() >= std::size_t{2} * most_faces) return -1;
     const std::uint32_t up = face_code(upper, x_.place(upper, w)), down = face_code(lower, x_.place(lower, w));
     if (x_.is_wall(up) || x_.is_wall(down)) return -1;
     const std::uint32_t up_code = x_.across(up), down_code = x_.across(down), next = x_.apex_of(up_code);
-    const std::uint32_t next_upper = cell_of(up_code), next_lower = cell_of(down_code);
+    const CellId next_upper = cell_of(up_code), next_lower = cell_of(down_code);
     if (next == below_ || next != x_.apex_of(down_code)) return -1;
     if (x_.is_wall(face_code(next_upper, x_.place(next_upper, above_)))) return -1;
-    if (std::ranges::find(change_.old_cells, next_upper) != change_.old_cells.end()) return -1;
+    if (has(change_.old_cells, next_upper)) return -1;
     // Only the edges at the corner across are new. The third edge is the one that was crossed.
     return add_face(next_upper, next_lower, {u, next, v}, 2);
   }
@@ -247,7 +247,7 @@ class SandwichedFaces {
 
 }  // namespace
 
-bool is_new_and_upright(const CellComplex& x, const std::array<std::uint32_t, 3>& corners, std::uint32_t facet) {
+bool is_new_and_upright(const CellComplex& x, const Triangle& corners, std::uint32_t facet) {
   const auto& [a, b, c] = corners;
   return !x.find_face(a, b, c) && facets::is_upright(x.point(a), x.point(b), x.point(c), x.axis_of_facet(facet));
 }
@@ -258,7 +258,7 @@ double worst_of(const std::vector<NewCell>& cells) {
   return worst;
 }
 
-bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t edge, double least, Change& change) {
+bool plan_edge_removal(const CellComplex& x, CellId cell, std::uint32_t edge, double least, Change& change) {
   ++work_done.changes_tried;
   change.clear();
   const auto& corner = delaunay::edge_corners[edge];
@@ -268,7 +268,7 @@ bool plan_edge_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t e
   return ring.is_closed ? add_ring(x, ring, least, change) : plan_flip(x, ring, least, change);
 }
 
-bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t face, double least, Change& change) {
+bool plan_face_removal(const CellComplex& x, CellId cell, std::uint32_t face, double least, Change& change) {
   ++work_done.changes_tried;
   change.clear();
   const std::uint32_t code = face_code(cell, face);
@@ -278,22 +278,22 @@ bool plan_face_removal(const CellComplex& x, std::uint32_t cell, std::uint32_t f
   return faces.add_face(cell, cell_of(other), corners_of_face(x.cell(cell).vertices, face), 3) > least;
 }
 
-Swap plan_best_swap(const CellComplex& x, std::uint32_t cell, Change& scratch, Change& change, Box& space_taken) {
+Swap plan_best_swap(const CellComplex& x, CellId cell, Change& scratch, Change& change) {
   double least = x.quality(cell);
+  Box space_taken = empty_box;
   Swap best = Swap::none;
   const auto consider = [&](bool is_better, Swap kind) {
+    space_taken = hull(space_taken, scratch.space_taken);
     if (!is_better) return;
     least = worst_of(scratch.new_cells);
     best = kind;
     std::swap(scratch, change);
   };
-  for (std::uint32_t edge = 0; edge < 6; ++edge) {
-    const bool is_planned = plan_edge_removal(x, cell, edge, least, scratch);
-    space_taken = hull(space_taken, scratch.space_taken);
-    consider(is_planned, Swap::edge_removal);
-  }
+  for (std::uint32_t edge = 0; edge < 6; ++edge)
+    consider(plan_edge_removal(x, cell, edge, least, scratch), Swap::edge_removal);
   for (std::uint32_t face = 0; face < 4; ++face)
     consider(plan_face_removal(x, cell, face, least, scratch), Swap::face_removal);
+  change.space_taken = space_taken;
   return best != Swap::none && x.all_positive(change) ? best : Swap::none;
 }
 

@@ -85,7 +85,7 @@ void VertexSides::find(std::span<const Point3> points) {
   find_all();
 }
 
-bool VertexSides::is_around(const std::array<Corner, 3>& triangle, Corner p, Corner q) const {
+bool VertexSides::is_around(const CornerTriangle& triangle, Corner p, Corner q) const {
   // It does if s and t are on different sides of pqr, and r and t on different sides of pqs.
   const auto& [r, s, t] = triangle;
   const Sides* const around = p < q ? of_row(p, q) : of_row(q, p);

@@ -18,6 +18,9 @@ constexpr CornerSet corner_bit(Corner v) {
   return CornerSet{1} << v;
 }
 
+/// Three of the vertices.
+using CornerTriangle = std::array<Corner, 3>;
+
 /// The vertices strictly on the two sides of a plane.
 struct Sides {
   CornerSet above = 0, below = 0;
@@ -38,7 +41,7 @@ class VertexSides {
   /// The vertices above and below a triangle. From above, its corners are in counterclockwise order.
   Sides of(Corner a, Corner b, Corner c) const { return a < b ? of_row(a, b)[c] : of_row(b, a)[c].flipped(); }
   /// Does the edge pq pass through the inside of the triangle rst? Its ends are on different sides of the triangle.
-  bool is_around(const std::array<Corner, 3>& triangle, Corner p, Corner q) const;
+  bool is_around(const CornerTriangle& triangle, Corner p, Corner q) const;
 
  private:
   void load(std::span<const Point3> points);
