@@ -9,7 +9,6 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/stopwatch.h"
-#include "engine/circumcenters/place_circumcenters.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
@@ -20,6 +19,7 @@
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
+#include "engine/lattice/place_circumcenters.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/collect_tetrahedra.h"
@@ -85,7 +85,7 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const protection::Prote
   const std::vector<Point3> vertices = points_of(surface.delaunay);
   const lattice::DomainSurface domain{vertices, triangles, subsegments};
   if (options.lattice == Lattice::refinement)
-    return circumcenters::place_circumcenters(domain, surface.delaunay, lattice, progress);
+    return lattice::place_circumcenters(domain, surface.delaunay, lattice, progress);
   return lattice::place_lattice_points(domain, lattice, progress);
 }
 

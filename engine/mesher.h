@@ -30,13 +30,13 @@ using improve::Improvement;
 using improve::ImproveOptions;
 using improve::ImproveStop;
 using improve::SteinerRule;
-using lattice::BackgroundSizes;
 using lattice::Lattice;
 using locate::LocatorKind;
 using mesh::TetMesh;
 using plc::InputPlc;
 using plc::PolygonFacet;
 using protection::Protection;
+using sizes::BackgroundSizes;
 using tets::Objective;
 
 /// The strategies of the engine and their parameters.

@@ -25,6 +25,7 @@ set(public_headers
   repair/faults.h
   repair/find_faults.h
   repair/repair_input.h
+  sizes/background_sizes.h
   surface/remesh_surface.h
   tets/objective.h
 )

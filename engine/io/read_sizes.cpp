@@ -21,7 +21,7 @@ std::filesystem::path background_of(const std::filesystem::path& file, std::init
 }
 
 /// Reads the number of sizes, which must be that of vertices.
-void read_count(TextScanner& in, const lattice::BackgroundSizes& background) {
+void read_count(TextScanner& in, const sizes::BackgroundSizes& background) {
   const Item item = "number of sizes";
   const std::size_t count = in.count(item, 2), vertices = background.vertices.size();
   if (count != vertices)
@@ -32,7 +32,7 @@ void read_count(TextScanner& in, const lattice::BackgroundSizes& background) {
   if (count == 0) in.fail(item, "there is no size", "give the size function at one or more vertices");
 }
 
-void read_values(TextScanner& in, lattice::BackgroundSizes& background) {
+void read_values(TextScanner& in, sizes::BackgroundSizes& background) {
   background.sizes.reserve(background.vertices.size());
   for (std::size_t i = 0; i < background.vertices.size(); ++i) {
     const Item item{"size of vertex", i};
@@ -64,11 +64,11 @@ void check_scalar(TextScanner& in) {
   in.fail("type of the field", "it is " + std::to_string(type) + name + ", not 1 (a scalar)", scalar_remedy);
 }
 
-lattice::BackgroundSizes read_sol(const std::filesystem::path& file) {
+sizes::BackgroundSizes read_sol(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
   const std::filesystem::path beside = background_of(file, {".mesh"}, ".mesh");
   mesh::TetMesh mesh = read_medit_mesh(read_whole_file(beside));
-  lattice::BackgroundSizes result;
+  sizes::BackgroundSizes result;
   result.mesh_name = beside.string();
   result.vertices = std::move(mesh.vertices);
   result.tetrahedra = std::move(mesh.tetrahedra);
@@ -80,11 +80,11 @@ lattice::BackgroundSizes read_sol(const std::filesystem::path& file) {
   return result;
 }
 
-lattice::BackgroundSizes read_mtr(const std::filesystem::path& file) {
+sizes::BackgroundSizes read_mtr(const std::filesystem::path& file) {
   const FileBytes bytes = read_whole_file(file);
   const auto beside = background_of(file, {".node", ".poly", ".smesh"}, ".node, .poly or .smesh");
   const std::filesystem::path cells = sibling(file, ".ele");
-  lattice::BackgroundSizes result;
+  sizes::BackgroundSizes result;
   result.mesh_name = beside.string();
   if (beside.extension() == ".node" && is_there(cells)) {
     mesh::TetMesh mesh = read_tetgen_mesh(cells);
@@ -103,13 +103,13 @@ lattice::BackgroundSizes read_mtr(const std::filesystem::path& file) {
 
 }  // namespace
 
-lattice::BackgroundSizes read_sizes(const std::filesystem::path& file) {
+sizes::BackgroundSizes read_sizes(const std::filesystem::path& file) {
   const std::string ending = lower_ending(file);
   check_is_file(file);
   if (ending != ".sol" && ending != ".mtr")
     throw InputError("unknown file extension '" + ending + "' of a size function", place_in(file.string()),
                      "use one of .sol .mtr");
-  lattice::BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
+  sizes::BackgroundSizes sizes = ending == ".sol" ? read_sol(file) : read_mtr(file);
   sizes.name = file.string();
   return sizes;
 }

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "engine/lattice/options.h"
+#include "engine/sizes/background_sizes.h"
 
 namespace ccdt::io {
 
@@ -16,6 +16,6 @@ namespace ccdt::io {
 /// \throw InputError  unknown extension, unreadable, no background beside it, a wrong number of vertices, not one
 ///                    scalar per vertex, or a size that is not a number > 0; with file and line
 /// \throw LimitError  out of memory
-lattice::BackgroundSizes read_sizes(const std::filesystem::path& file);
+sizes::BackgroundSizes read_sizes(const std::filesystem::path& file);
 
 }  // namespace ccdt::io

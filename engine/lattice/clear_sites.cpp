@@ -10,6 +10,7 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/lattice/surface_obstacles.h"
 
 namespace ccdt::lattice {
 
@@ -84,14 +85,10 @@ struct Range {
   std::array<std::uint32_t, 3> low, high;
 };
 
-/// An obstacle for lattice points: a triangle, or a subsegment or vertex as a degenerate triangle.
-struct Obstacle {
-  std::array<VertexId, 3> vertices;
-  bool needs_clearance = true;
-  Range near;          ///< of the triangle
-  Range in_ball;       ///< of the triangle and its ball
-  Point3 ball_center;  ///< no site may be in this ball
-  double squared_ball_radius = -1;
+/// An obstacle among the sites of an octree.
+struct PlacedObstacle : Obstacle {
+  Range near;     ///< of the triangle
+  Range in_ball;  ///< of the triangle and its ball
 };
 
 /// A fast test whether a point is near a triangle.
@@ -116,64 +113,29 @@ class TriangleDistance {
   double squared_area_;
 };
 
-/// Collects the obstacles of a surface.
-class ObstacleList {
- public:
-  ObstacleList(const Octree& tree, const DomainSurface& surface, double sphere_factor)
-      : tree_(tree), surface_(surface), sphere_factor_(sphere_factor) {
-    std::vector<bool> in_triangle(surface.vertices.size(), false);
-    for (const SurfaceTriangle& t : surface.triangles)
-      for (const VertexId v : t.vertices) in_triangle[v] = true;
-    const std::size_t triangles = surface.triangles.size(), subsegments = surface.subsegments.size();
-    obstacles_.resize(triangles + subsegments);
-    parallel_for(triangles, 1024, [&](std::size_t t) {
-      obstacles_[t] =
-          obstacle(surface.triangles[t].vertices, true, smallest_ball(surface.corners(static_cast<std::uint32_t>(t))));
-    });
-    parallel_for(subsegments, 1024, [&](std::size_t s) {
-      const auto& [a, b] = surface.subsegments[s];
-      obstacles_[triangles + s] = obstacle({a, b, b}, !in_triangle[a] || !in_triangle[b],
-                                           smallest_ball(surface.vertices[a], surface.vertices[b]));
-    });
-    for (std::uint32_t v = 0; v < in_triangle.size(); ++v)
-      if (!in_triangle[v])
-        obstacles_.push_back(obstacle({VertexId(v), VertexId(v), VertexId(v)}, true, {surface.vertices[v], 0}));
+/// A bounding box, slightly enlarged.
+Range range_of(const Box& box, const Octree& tree) {
+  const auto low = as_array(box.low - tree.origin), high = as_array(box.high - tree.origin);
+  constexpr double most = std::uint32_t{1} << (Octree::bits + 1);
+  Range range;
+  for (int k = 0; k < 3; ++k) {
+    range.low[k] = static_cast<std::uint32_t>(std::clamp(low[k] / tree.unit - 1, 0.0, most));
+    range.high[k] = static_cast<std::uint32_t>(std::clamp(high[k] / tree.unit + 1, 0.0, most));
   }
+  return range;
+}
 
-  RawVector<Obstacle> take() { return std::move(obstacles_); }
-
- private:
-  Obstacle obstacle(const std::array<VertexId, 3>& vertices, bool needs_clearance, const Ball& ball) const {
-    Obstacle o{vertices, needs_clearance, {}, {}, ball.center};
-    const Box box = bounding_box(
-        std::array{surface_.vertices[vertices[0]], surface_.vertices[vertices[1]], surface_.vertices[vertices[2]]});
-    o.in_ball = o.near = range(box);
-    if (sphere_factor_ > 0) {
-      const double r = ball.radius * sphere_factor_;
-      o.squared_ball_radius = r * r;
-      o.in_ball = range(
-          bounding_box(std::array{box.low, box.high, ball.center - Point3{r, r, r}, ball.center + Point3{r, r, r}}));
-    }
-    return o;
-  }
-
-  /// A bounding box, slightly enlarged.
-  Range range(const Box& box) const {
-    const auto low = as_array(box.low - tree_.origin), high = as_array(box.high - tree_.origin);
-    constexpr double most = std::uint32_t{1} << (Octree::bits + 1);
-    Range range;
-    for (int k = 0; k < 3; ++k) {
-      range.low[k] = static_cast<std::uint32_t>(std::clamp(low[k] / tree_.unit - 1, 0.0, most));
-      range.high[k] = static_cast<std::uint32_t>(std::clamp(high[k] / tree_.unit + 1, 0.0, most));
-    }
-    return range;
-  }
-
-  const Octree& tree_;
-  const DomainSurface& surface_;
-  double sphere_factor_;
-  RawVector<Obstacle> obstacles_;
-};
+RawVector<PlacedObstacle> place_obstacles(const Octree& tree, const DomainSurface& surface, double sphere_factor) {
+  const RawVector<Obstacle> obstacles = list_obstacles(surface, sphere_factor);
+  RawVector<PlacedObstacle> placed(obstacles.size());
+  parallel_for(obstacles.size(), 1024, [&](std::size_t i) {
+    const Obstacle& o = obstacles[i];
+    const Box box = bounding_box(surface.corners(o.vertices));
+    const Box with_ball = o.squared_ball_radius >= 0 ? hull(box, expanded(box_of(o.ball.center), o.ball.radius)) : box;
+    placed[i] = {o, range_of(box, tree), range_of(with_ball, tree)};
+  });
+  return placed;
+}
 
 /// Passes the obstacles down the octree to the leaves whose sites they may remove.
 class Clearing {
@@ -183,7 +145,7 @@ class Clearing {
       : tree_(tree),
         surface_(surface),
         sites_(sites),
-        obstacles_(ObstacleList(tree, surface, options.sphere_factor).take()),
+        obstacles_(place_obstacles(tree, surface, options.sphere_factor)),
         nodes_(tree.nodes.size()),
         stays_(sites.size(), true) {
     for (unsigned level = 0; level <= tree.depth; ++level) {
@@ -328,12 +290,12 @@ class Clearing {
     if (largest_squared_ball_radius_ < least) return false;
     return std::ranges::any_of(reaching, [&](std::uint32_t o) {
       const double bound = obstacles_[o].squared_ball_radius;
-      return bound >= least && squared_farthest_distance(box, obstacles_[o].ball_center) <= bound;
+      return bound >= least && squared_farthest_distance(box, obstacles_[o].ball.center) <= bound;
     });
   }
 
   /// A bit for each child that may have a site in the ball or within the clearance.
-  std::uint8_t children_in_reach(const OctreeNode& node, const NodeSites& here, const Obstacle& o) const {
+  std::uint8_t children_in_reach(const OctreeNode& node, const NodeSites& here, const PlacedObstacle& o) const {
     constexpr std::uint8_t lower[] = {0x55, 0x33, 0x0F};
     const std::uint32_t reach = o.needs_clearance ? clearance_[here.coarsest].units : 0;
     unsigned children = 0xFF;
@@ -352,7 +314,7 @@ class Clearing {
     for (std::uint32_t s = here.begin; s < here.end; ++s) {
       const Point3 p = tree_.point(coordinates_of(sites_[s]));
       const auto covering = std::ranges::find_if(reaching, [&](std::uint32_t o) {
-        return squared_length(p - obstacles_[o].ball_center) <= obstacles_[o].squared_ball_radius;
+        return squared_length(p - obstacles_[o].ball.center) <= obstacles_[o].squared_ball_radius;
       });
       balls += static_cast<std::uint64_t>(covering - reaching.begin()) + (covering != reaching.end());
       if (covering != reaching.end())
@@ -363,22 +325,21 @@ class Clearing {
     work_done.sites_tested += here.end - here.begin;
     work_done.obstacles_tested += balls;
     for (std::size_t k = 0; k < reaching.size() && !left.empty(); ++k) {
-      const Obstacle& o = obstacles_[reaching[k]];
+      const PlacedObstacle& o = obstacles_[reaching[k]];
       if (o.needs_clearance && is_near(leaf, o)) clear_around(o, clearance_[leaf.level].squared_radius, left);
     }
   }
 
   /// May the leaf have a site within the clearance?
-  bool is_near(const OctreeNode& leaf, const Obstacle& o) const {
+  bool is_near(const OctreeNode& leaf, const PlacedObstacle& o) const {
     const std::uint32_t side = tree_.side(leaf), reach = clearance_[leaf.level].units;
     for (int k = 0; k < 3; ++k)
       if (o.near.low[k] >= leaf.corner[k] + side + reach || o.near.high[k] + reach < leaf.corner[k]) return false;
     return true;
   }
 
-  void clear_around(const Obstacle& o, double squared_radius, std::vector<PlacedSite>& left) {
-    const auto& [a, b, c] = o.vertices;
-    const TriangleDistance distance({surface_.vertices[a], surface_.vertices[b], surface_.vertices[c]});
+  void clear_around(const PlacedObstacle& o, double squared_radius, std::vector<PlacedSite>& left) {
+    const TriangleDistance distance(surface_.corners(o.vertices));
     work_done.obstacles_tested += left.size();
     std::erase_if(left, [&](const PlacedSite& site) {
       const bool goes = distance.is_below(squared_radius, site.point);
@@ -390,7 +351,7 @@ class Clearing {
   const Octree& tree_;
   const DomainSurface& surface_;
   const std::vector<Site>& sites_;
-  RawVector<Obstacle> obstacles_;
+  RawVector<PlacedObstacle> obstacles_;
   std::vector<NodeSites> nodes_;
   std::vector<Clearance> clearance_;  ///< by level
   std::vector<std::uint8_t> stays_;   ///< by site; each leaf has its own

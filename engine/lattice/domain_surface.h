@@ -24,10 +24,10 @@ struct DomainSurface {
   std::span<const SurfaceTriangle> triangles;
   std::span<const std::array<VertexId, 2>> subsegments;
 
-  TrianglePoints corners(std::uint32_t triangle) const {
-    const auto& v = triangles[triangle].vertices;
+  TrianglePoints corners(const std::array<VertexId, 3>& v) const {
     return {vertices[v[0]], vertices[v[1]], vertices[v[2]]};
   }
+  TrianglePoints corners(std::uint32_t triangle) const { return corners(triangles[triangle].vertices); }
 };
 
 }  // namespace ccdt::lattice

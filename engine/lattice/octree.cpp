@@ -93,14 +93,14 @@ CCDT_ALWAYS_INLINE unsigned children_touching(const TrianglePoints& triangle, co
 const double largest_excess = std::sqrt(2.0);
 
 /// Places the root: a power of two times the reference cell, and on a multiple of that cell, around the surface.
-Octree make_root(const DomainSurface& surface, const SizeField& size, Lattice kind) {
+Octree make_root(const DomainSurface& surface, const TargetSizes& size, Lattice kind) {
   Octree tree;
   tree.bounds = bounding_box(surface.vertices);
   const auto extent = as_array(tree.bounds.high - tree.bounds.low);
   const double reach = *std::ranges::max_element(extent);
   // Half a cell, and half a box during a search, must be whole grid units: no cell is below 2^4.
   constexpr int lowest_bit = 4;
-  const double cell = std::max(round_to_few_bits(cell_side(kind, size.reference())), std::ldexp(1.0, lowest_bit + 8));
+  const double cell = std::max(round_to_few_bits(cell_side(kind, size.reference)), std::ldexp(1.0, lowest_bit + 8));
   double side = cell;
   // A cell of the reference size may be larger than the surface.
   while (side < reach + 2 * cell) side *= 2;
@@ -128,7 +128,7 @@ class Builder {
                  [&](std::size_t t) { around_[t] = bounding_box(surface.corners(static_cast<std::uint32_t>(t))); });
   }
 
-  void refine(const SizeField& size, Lattice kind) {
+  void refine(const TargetSizes& size, Lattice kind) {
     // Children come after their parents, level by level.
     for (std::size_t begin = 0, end = 1; begin < end; begin = end, end = tree_.nodes.size()) {
       std::vector<std::uint8_t> is_too_large(end - begin);
@@ -136,7 +136,8 @@ class Builder {
         const OctreeNode& node = tree_.nodes[begin + i];
         if (node.place == NodePlace::outside || node.level == tree_.depth) return;
         const double edge_length = edge_length_of_cell(kind, tree_.length(tree_.side(node)));
-        is_too_large[i] = size.is_below(intersection(tree_.box(node), tree_.bounds), edge_length / largest_excess);
+        is_too_large[i] =
+            size.field.is_below(intersection(tree_.box(node), tree_.bounds), edge_length / largest_excess);
       });
       std::vector<std::uint32_t> parents;
       for (std::size_t i = 0; i < is_too_large.size(); ++i)
@@ -415,7 +416,7 @@ bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p
   return false;
 }
 
-Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice kind) {
+Octree build_octree(const DomainSurface& surface, const TargetSizes& size, Lattice kind) {
   Octree tree = make_root(surface, size, kind);
   Builder builder(tree, surface);
   builder.refine(size, kind);

@@ -8,7 +8,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
-#include "engine/lattice/size_field.h"
+#include "engine/lattice/target_sizes.h"
 
 namespace ccdt::lattice {
 
@@ -87,7 +87,7 @@ struct Octree {
 /// percent where that is the reference size.
 ///
 /// \throw LimitError  more leaves than a program can index
-Octree build_octree(const DomainSurface& surface, const SizeField& size, Lattice kind);
+Octree build_octree(const DomainSurface& surface, const TargetSizes& size, Lattice kind);
 
 /// Is a point of a node on the surface strictly inside the domain? Exact. If no ray in the whole tree decides, the
 /// answer is no: then a point may be missing, but none is wrong.

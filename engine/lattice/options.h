@@ -1,12 +1,9 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
 
 #include "engine/base/enum_names.h"
-#include "engine/base/point.h"
+#include "engine/sizes/background_sizes.h"
 
 namespace ccdt::lattice {
 
@@ -29,18 +26,6 @@ constexpr auto names_of(Lattice) {
                                               "(Delaunay refinement)"}});
 }
 
-/// Target edge lengths given at the vertices of a background: a tetrahedral mesh, or vertices alone. Empty if there is
-/// none.
-struct BackgroundSizes {
-  std::string name;       ///< path as the user gave it
-  std::string mesh_name;  ///< path of the file that the vertices come from
-  std::vector<Point3> vertices;
-  std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< may be empty; any orientation
-  std::vector<double> sizes;                             ///< of each vertex, > 0
-
-  bool empty() const { return vertices.empty(); }
-};
-
 /// Lattice points nearer to the surface than this times the edge length of the lattice are dropped. See the table in
 /// clear_sites.cpp.
 inline constexpr double usual_clearance = 0.55;
@@ -54,7 +39,7 @@ struct LatticeOptions {
   double sphere_factor = 1;
   double clearance = usual_clearance;  ///< least distance to the surface, in edge lengths of the lattice there
   double radius_edge = 2;              ///< Delaunay refinement: the largest circumradius over the shortest edge
-  const BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
+  const sizes::BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
 };
 
 }  // namespace ccdt::lattice

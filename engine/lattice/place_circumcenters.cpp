@@ -1,4 +1,4 @@
-#include "engine/circumcenters/place_circumcenters.h"
+#include "engine/lattice/place_circumcenters.h"
 
 #include <algorithm>
 #include <array>
@@ -9,21 +9,18 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/circumcenters/surface_obstacles.h"
 #include "engine/delaunay/insertion.h"
 #include "engine/lattice/octree.h"
 #include "engine/lattice/place_lattice_points.h"
-#include "engine/lattice/size_field.h"
+#include "engine/lattice/surface_obstacles.h"
+#include "engine/lattice/target_sizes.h"
 #include "engine/numbers/grid.h"
 
-namespace ccdt::circumcenters {
+namespace ccdt::lattice {
 namespace {
-
-constexpr std::string_view stage = "lattice";
 
 using CellVertices = std::array<std::uint32_t, 4>;
 
@@ -95,7 +92,7 @@ class CandidateQueue {
 
 class Refinement {
  public:
-  Refinement(const lattice::DomainSurface& surface, delaunay::Delaunay delaunay, const lattice::LatticeOptions& options,
+  Refinement(const DomainSurface& surface, delaunay::Delaunay delaunay, const LatticeOptions& options,
              const Progress& progress)
       : surface_(surface),
         options_(options),
@@ -105,16 +102,16 @@ class Refinement {
         d_(std::move(delaunay)),
         insertion_(d_),
         first_(d_.vertices.size()) {
-    const lattice::SizeField size(surface, options.edge_length, options.grading, options.background);
-    lattice::check_number_of_points(surface, size);
-    tree_ = lattice::build_octree(surface, size, options.kind);
+    const TargetSizes size = target_sizes(surface, options.edge_length, options.grading, options.background);
+    check_number_of_points(surface, size);
+    tree_ = build_octree(surface, size, options.kind);
     for (unsigned level = 0; level <= tree_.depth; ++level) {
-      const double target = lattice::edge_length_of_cell(options.kind, tree_.length(2u << (tree_.depth - level)));
+      const double target = edge_length_of_cell(options.kind, tree_.length(2u << (tree_.depth - level)));
       levels_.push_back({options.clearance * target, radius_per_edge * radius_per_edge * target * target});
     }
   }
 
-  lattice::LatticePoints run() {
+  LatticePoints run() {
     std::vector<std::uint32_t> all(d_.cells.size());
     std::iota(all.begin(), all.end(), 0u);
     consider(all);
@@ -125,7 +122,7 @@ class Refinement {
       if (!point || !insert(point->place, worst.cell, point->squared_clearance)) continue;
       consider(insertion_.new_cells());
       const std::size_t count = d_.vertices.size() - first_;
-      if (count % 4096 == 0) report(progress_, stage, count, 0);
+      if (count % 4096 == 0) report(progress_, "lattice", count, 0);
     }
     note_bytes(bytes_of(d_.vertices, d_.cell_at, d_.cells, tree_.nodes, tree_.triangles) + obstacles_.bytes() +
                insertion_.bytes() + queue_.bytes());
@@ -145,7 +142,7 @@ class Refinement {
 
   bool is_skinny(const CellShape& s) const { return s.squared_radius > squared_bound_ * s.squared_shortest_edge; }
 
-  bool is_large(const CellShape& s, const lattice::OctreeNode& leaf) const {
+  bool is_large(const CellShape& s, const OctreeNode& leaf) const {
     return s.squared_radius > levels_[leaf.level].squared_radius;
   }
 
@@ -160,8 +157,8 @@ class Refinement {
       const CellShape s = shape(c.vertices);
       const Point3 center = rounded(s.center);
       if (!strictly_contains(tree_.bounds, center)) continue;
-      const lattice::OctreeNode& leaf = tree_.leaf_with(center);
-      if (leaf.place != lattice::NodePlace::outside && (is_skinny(s) || is_large(s, leaf)))
+      const OctreeNode& leaf = tree_.leaf_with(center);
+      if (leaf.place != NodePlace::outside && (is_skinny(s) || is_large(s, leaf)))
         queue_.push(s.squared_radius / s.squared_shortest_edge, c);
     }
   }
@@ -174,7 +171,7 @@ class Refinement {
   std::optional<NewPoint> find_point(const Candidate& candidate) const {
     const CellShape s = shape(candidate.vertices);
     const Point3 center = rounded(s.center);
-    const lattice::OctreeNode& leaf = tree_.leaf_with(center);
+    const OctreeNode& leaf = tree_.leaf_with(center);
     if (obstacles_.reach(center, levels_[leaf.level].clearance) || !is_inside(center, leaf)) return {};
     const bool is_large = this->is_large(s, leaf);
     if (!is_large && !is_inside(centroid(candidate.vertices))) return {};
@@ -211,8 +208,8 @@ class Refinement {
     return rounded(0.25 * ((d_.point(v[0]) + d_.point(v[1])) + (d_.point(v[2]) + d_.point(v[3]))));
   }
 
-  bool is_inside(const Point3& p, const lattice::OctreeNode& leaf) const {
-    if (leaf.place != lattice::NodePlace::surface) return leaf.place == lattice::NodePlace::inside;
+  bool is_inside(const Point3& p, const OctreeNode& leaf) const {
+    if (leaf.place != NodePlace::surface) return leaf.place == NodePlace::inside;
     return lattice::is_inside(tree_, surface_, p, leaf);
   }
 
@@ -222,9 +219,9 @@ class Refinement {
 
   /// The first points are the farthest from each other, so they are to be inserted first again. Each round has three
   /// times the points of all before it.
-  lattice::LatticePoints points() const {
+  LatticePoints points() const {
     const std::size_t count = d_.vertices.size() - first_;
-    lattice::LatticePoints result;
+    LatticePoints result;
     result.kind = options_.kind;
     result.levels.resize(count, 0);
     for (std::size_t i = 0; i < count; ++i) {
@@ -236,8 +233,8 @@ class Refinement {
     return result;
   }
 
-  const lattice::DomainSurface& surface_;
-  const lattice::LatticeOptions& options_;
+  const DomainSurface& surface_;
+  const LatticeOptions& options_;
   const Progress& progress_;
   const double squared_bound_;
   /// What is allowed where the leaves of the octree have a level.
@@ -246,7 +243,7 @@ class Refinement {
     double squared_radius;  ///< of a cell, the greatest
   };
 
-  lattice::Octree tree_;
+  Octree tree_;
   std::vector<Level> levels_;
   const SurfaceObstacles obstacles_;
   delaunay::Delaunay d_;
@@ -258,10 +255,10 @@ class Refinement {
 
 }  // namespace
 
-lattice::LatticePoints place_circumcenters(const lattice::DomainSurface& surface, delaunay::Delaunay delaunay,
-                                           const lattice::LatticeOptions& options, const Progress& progress) {
+LatticePoints place_circumcenters(const DomainSurface& surface, delaunay::Delaunay delaunay,
+                                  const LatticeOptions& options, const Progress& progress) {
   if (surface.triangles.empty()) return {};
   return Refinement(surface, std::move(delaunay), options, progress).run();
 }
 
-}  // namespace ccdt::circumcenters
+}  // namespace ccdt::lattice

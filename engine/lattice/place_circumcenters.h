@@ -6,7 +6,7 @@
 #include "engine/lattice/options.h"
 #include "engine/lattice/place_lattice_points.h"
 
-namespace ccdt::circumcenters {
+namespace ccdt::lattice {
 
 /// The greatest circumradius of a cell over the target edge length. With it, meshes of about 100,000 tetrahedra have
 /// about as many as with a face-centered cubic lattice, whose largest circumradius is sqrt(1/2) of its edge length: 11%
@@ -17,11 +17,11 @@ inline constexpr double radius_per_edge = 0.83;
 /// there is a bad cell, a vertex is inserted at its circumcenter. A cell is bad if it is *skinny*, its circumradius
 /// over its shortest edge being above `options.radius_edge`, or *large*, its circumradius being above `radius_per_edge`
 /// times the target edge length at its circumcenter, which is that of the lattices: the leaf of the octree there has it
-/// (`lattice::build_octree`). The cell with the largest circumradius over its shortest edge comes first, up to 3
+/// (`build_octree`). The cell with the largest circumradius over its shortest edge comes first, up to 3
 /// percent.
 ///
 /// The surface is fixed, so nothing that is encroached is split. A circumcenter that is not strictly inside the domain,
-/// or too near to the surface by the rule for lattice points (see `lattice::place_lattice_points`), is not inserted,
+/// or too near to the surface by the rule for lattice points (see `place_lattice_points`), is not inserted,
 /// and its cell is given up. So in the end each cell of the Delaunay tetrahedralization of the surface and all points
 ///
 ///   * is neither skinny nor large,
@@ -44,7 +44,7 @@ inline constexpr double radius_per_edge = 0.83;
 /// \return  points in the order of insertion: integers in grid units, pairwise different, strictly inside the domain;
 ///          all of one level, and of no lattice
 /// \throw LimitError  more points than vertex ids
-lattice::LatticePoints place_circumcenters(const lattice::DomainSurface& surface, delaunay::Delaunay delaunay,
-                                           const lattice::LatticeOptions& options, const Progress& progress = {});
+LatticePoints place_circumcenters(const DomainSurface& surface, delaunay::Delaunay delaunay,
+                                  const LatticeOptions& options, const Progress& progress = {});
 
-}  // namespace ccdt::circumcenters
+}  // namespace ccdt::lattice

@@ -36,7 +36,7 @@ double volume_inside(const DomainSurface& surface) {
 
 /// The field of sizes takes much memory, so it ends here.
 Octree make_octree(const DomainSurface& surface, const LatticeOptions& options) {
-  const SizeField size(surface, options.edge_length, options.grading, options.background);
+  const TargetSizes size = target_sizes(surface, options.edge_length, options.grading, options.background);
   check_number_of_points(surface, size);
   return build_octree(surface, size, options.kind);
 }
@@ -109,8 +109,8 @@ RawVector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<con
 
 }  // namespace
 
-void check_number_of_points(const DomainSurface& surface, const SizeField& size) {
-  const double largest = size.largest();
+void check_number_of_points(const DomainSurface& surface, const TargetSizes& size) {
+  const double largest = size.field.largest();
   if (largest == HUGE_VAL) return;
   const double points = std::sqrt(2.0) * volume_inside(surface) / (largest * largest * largest);
   if (points > plc::most_vertices) plc::throw_too_many_vertices(points);

@@ -45,7 +45,7 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
 /// Checks the number of points before memory is allocated. They are nowhere coarser than the greatest target.
 ///
 /// \throw LimitError  more points than vertex ids
-void check_number_of_points(const DomainSurface& surface, const SizeField& size);
+void check_number_of_points(const DomainSurface& surface, const TargetSizes& size);
 
 /// Leaves out all points but these.
 ///

@@ -1,21 +1,55 @@
-#include "engine/circumcenters/surface_obstacles.h"
+#include "engine/lattice/surface_obstacles.h"
 
-#include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/lattice/clear_sites.h"
 
-namespace ccdt::circumcenters {
+namespace ccdt::lattice {
 namespace {
 
-constexpr std::size_t obstacle_grain = 2048;  ///< of loops on several threads
+constexpr std::size_t obstacle_grain = 1024;  ///< of loops on several threads
+
+RawVector<Box> boxes_of(const RawVector<Obstacle>& obstacles, const DomainSurface& surface) {
+  RawVector<Box> boxes(obstacles.size());
+  parallel_for(obstacles.size(), obstacle_grain, [&](std::size_t i) {
+    const Obstacle& o = obstacles[i];
+    boxes[i] = bounding_box(surface.corners(o.vertices));
+    if (o.squared_ball_radius >= 0) boxes[i] = hull(boxes[i], expanded(box_of(o.ball.center), o.ball.radius));
+  });
+  return boxes;
+}
 
 }  // namespace
 
-SurfaceObstacles::SurfaceObstacles(const lattice::DomainSurface& surface, double sphere_factor)
-    : obstacles_(list(surface, sphere_factor)), tree_(boxes_of(obstacles_)) {}
+RawVector<Obstacle> list_obstacles(const DomainSurface& surface, double sphere_factor) {
+  const auto obstacle = [&](const std::array<VertexId, 3>& vertices, bool needs_clearance, Ball ball) {
+    ball.radius *= sphere_factor;
+    return Obstacle{vertices, needs_clearance, ball, sphere_factor > 0 ? ball.radius * ball.radius : -1};
+  };
+  std::vector<bool> in_triangle(surface.vertices.size(), false);
+  for (const SurfaceTriangle& t : surface.triangles)
+    for (const VertexId v : t.vertices) in_triangle[v] = true;
+  const std::size_t triangles = surface.triangles.size(), subsegments = surface.subsegments.size();
+  RawVector<Obstacle> obstacles(triangles + subsegments);
+  parallel_for(triangles, obstacle_grain, [&](std::size_t t) {
+    obstacles[t] =
+        obstacle(surface.triangles[t].vertices, true, smallest_ball(surface.corners(static_cast<std::uint32_t>(t))));
+  });
+  parallel_for(subsegments, obstacle_grain, [&](std::size_t s) {
+    const auto& [a, b] = surface.subsegments[s];
+    obstacles[triangles + s] = obstacle({a, b, b}, !in_triangle[a] || !in_triangle[b],
+                                        smallest_ball(surface.vertices[a], surface.vertices[b]));
+  });
+  for (std::size_t i = 0; i < in_triangle.size(); ++i)
+    if (const VertexId v(i); !in_triangle[i]) obstacles.push_back(obstacle({v, v, v}, true, {surface.vertices[v], 0}));
+  return obstacles;
+}
+
+SurfaceObstacles::SurfaceObstacles(const DomainSurface& surface, double sphere_factor)
+    : surface_(surface), obstacles_(list_obstacles(surface, sphere_factor)), tree_(boxes_of(obstacles_, surface)) {}
 
 bool SurfaceObstacles::reach(const Point3& p, double clearance) const {
   bool is_reached = false;
@@ -25,51 +59,12 @@ bool SurfaceObstacles::reach(const Point3& p, double clearance) const {
     if (is_reached) return;
     const Obstacle& o = obstacles_[i];
     ++tested;
-    is_reached = squared_length(p - o.ball_center) <= o.squared_ball_radius ||
-                 (o.needs_clearance && lattice::squared_distance(o.corners, p) <= squared_clearance);
+    is_reached = squared_length(p - o.ball.center) <= o.squared_ball_radius ||
+                 (o.needs_clearance && squared_distance(surface_.corners(o.vertices), p) <= squared_clearance);
   });
   ++work_done.sites_tested;
   work_done.obstacles_tested += tested;
   return is_reached;
 }
 
-RawVector<SurfaceObstacles::Obstacle> SurfaceObstacles::list(const lattice::DomainSurface& surface,
-                                                             double sphere_factor) {
-  constexpr double no_ball = -1;
-  const auto obstacle = [&](const lattice::TrianglePoints& corners, const Ball& ball, bool needs_clearance) {
-    const double radius = ball.radius * sphere_factor;
-    return Obstacle{corners, ball.center, sphere_factor > 0 ? radius * radius : no_ball, needs_clearance};
-  };
-  std::vector<bool> in_triangle(surface.vertices.size(), false);
-  for (const lattice::SurfaceTriangle& t : surface.triangles)
-    for (const VertexId v : t.vertices) in_triangle[v] = true;
-  const std::size_t triangles = surface.triangles.size(), subsegments = surface.subsegments.size();
-  RawVector<Obstacle> obstacles(triangles + subsegments);
-  parallel_for(triangles, obstacle_grain, [&](std::size_t t) {
-    const lattice::TrianglePoints corners = surface.corners(static_cast<std::uint32_t>(t));
-    obstacles[t] = obstacle(corners, lattice::smallest_ball(corners), true);
-  });
-  parallel_for(subsegments, obstacle_grain, [&](std::size_t s) {
-    const auto& [a, b] = surface.subsegments[s];
-    const Point3 &from = surface.vertices[a], &to = surface.vertices[b];
-    obstacles[triangles + s] =
-        obstacle({from, to, to}, lattice::smallest_ball(from, to), !in_triangle[a] || !in_triangle[b]);
-  });
-  for (std::size_t v = 0; v < in_triangle.size(); ++v) {
-    const Point3& p = surface.vertices[v];
-    if (!in_triangle[v]) obstacles.push_back(obstacle({p, p, p}, {p, 0}, true));
-  }
-  return obstacles;
-}
-
-RawVector<Box> SurfaceObstacles::boxes_of(const RawVector<Obstacle>& obstacles) {
-  RawVector<Box> boxes(obstacles.size());
-  parallel_for(obstacles.size(), obstacle_grain, [&](std::size_t i) {
-    const Obstacle& o = obstacles[i];
-    const double radius = o.squared_ball_radius > 0 ? std::sqrt(o.squared_ball_radius) : 0;
-    boxes[i] = hull(bounding_box(o.corners), expanded(box_of(o.ball_center), radius));
-  });
-  return boxes;
-}
-
-}  // namespace ccdt::circumcenters
+}  // namespace ccdt::lattice

@@ -1,5 +1,6 @@
 #include "engine/plc/edge_length_bounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -9,14 +10,17 @@
 namespace ccdt::plc {
 namespace {
 
-/// Holes count as well, which does not matter for an order of magnitude.
-double area_of(const InputPlc& input) {
+/// Of all polygons. Holes count as well, which does not matter for an order of magnitude.
+///
+/// \param unit  of length
+double area_of(const InputPlc& input, double unit) {
   double twice = 0;
   const auto add = [&](const auto& polygon) {
     Point3 normal;
     for (std::size_t i = 2; i < polygon.size(); ++i) {
       const Point3& origin = input.vertices[polygon[0]];
-      normal = normal + cross(input.vertices[polygon[i - 1]] - origin, input.vertices[polygon[i]] - origin);
+      normal = normal + cross((1 / unit) * (input.vertices[polygon[i - 1]] - origin),
+                              (1 / unit) * (input.vertices[polygon[i]] - origin));
     }
     twice += length(normal);
   };
@@ -36,15 +40,21 @@ void throw_too_many_vertices(double count, const std::string& file) {
 }
 
 double longest_edge(const InputPlc& input) {
+  if (input.vertices.empty()) return 0;
   const Box box = bounding_box(input.vertices);
-  return input.vertices.empty() ? 0 : length(box.high - box.low);
+  const Point3 diagonal = box.high - box.low;
+  // Squares of the smallest and of the largest numbers are not numbers.
+  int exponent = 0;
+  std::frexp(std::max({diagonal.x, diagonal.y, diagonal.z}), &exponent);
+  const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };
+  return std::ldexp(length({scaled(diagonal.x), scaled(diagonal.y), scaled(diagonal.z)}), exponent);
 }
 
 void check_edges_of_surface(const InputPlc& input, double edge_length) {
   // There are two triangles per vertex.
-  const double area_per_vertex = std::sqrt(3) / 2 * edge_length * edge_length;
-  const double count = area_of(input) / area_per_vertex;
-  if (count > most_vertices) throw_too_many_vertices(count, input.name);
+  const double area_per_vertex = std::sqrt(3) / 2;
+  const double count = area_of(input, edge_length) / area_per_vertex;
+  if (!(count <= most_vertices)) throw_too_many_vertices(count, input.name);
 }
 
 }  // namespace ccdt::plc

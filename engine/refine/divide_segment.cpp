@@ -19,7 +19,7 @@ Point3 at_share(const std::array<Point3, 2>& ends, double share) {
 }
 
 /// Divides a segment into intervals that are nearly equal, in units of the wanted lengths.
-std::vector<double> even_shares(const std::array<Point3, 2>& ends, SurfaceSizes& sizes) {
+std::vector<double> even_shares(const std::array<Point3, 2>& ends, sizes::SizeWalk& sizes) {
   const double whole = length(ends[1] - ends[0]);
   std::vector<std::pair<double, double>> passed = {{0, 0}};  // share of the length, wanted edges up to there
   double size = sizes.at(ends[0]);
@@ -48,7 +48,7 @@ std::vector<double> even_shares(const std::array<Point3, 2>& ends, SurfaceSizes&
 class Shells {
  public:
   /// \param least, most  distances from the first end
-  Shells(const std::array<Point3, 2>& ends, double least, double most, SurfaceSizes& sizes)
+  Shells(const std::array<Point3, 2>& ends, double least, double most, sizes::SizeWalk& sizes)
       : ends_(ends), whole_(length(ends[1] - ends[0])), least_(least), most_(most), sizes_(sizes) {}
 
   /// \return  shares of the whole length, in increasing order
@@ -75,13 +75,13 @@ class Shells {
 
   const std::array<Point3, 2>& ends_;
   const double whole_, least_, most_;
-  SurfaceSizes& sizes_;
+  sizes::SizeWalk& sizes_;
   std::vector<double> shares_;
 };
 
 /// Shells around the end with a small angle. If both ends have one, each half has shells around its own end.
 std::vector<double> shares_on_shells(const std::array<Point3, 2>& ends, const LeastDistances& least,
-                                     SurfaceSizes& sizes) {
+                                     sizes::SizeWalk& sizes) {
   const double whole = length(ends[1] - ends[0]);
   const double of_first = least[0] == no_small_angle ? 0 : least[1] == no_small_angle ? whole : whole / 2;
   const std::array<Point3, 2> turned = {ends[1], ends[0]};
@@ -94,7 +94,7 @@ std::vector<double> shares_on_shells(const std::array<Point3, 2>& ends, const Le
 }  // namespace
 
 std::vector<std::uint32_t> divide_segment(const std::array<Point3, 2>& ends, const LeastDistances& least,
-                                          SurfaceSizes& sizes) {
+                                          sizes::SizeWalk& sizes) {
   const bool has_small_angle = least[0] != no_small_angle || least[1] != no_small_angle;
   std::vector<std::uint32_t> fractions;
   for (const double share : has_small_angle ? shares_on_shells(ends, least, sizes) : even_shares(ends, sizes)) {

@@ -7,7 +7,7 @@
 #include "engine/base/point.h"
 #include "engine/protection/segment_chains.h"
 #include "engine/refine/close_segments.h"
-#include "engine/refine/surface_sizes.h"
+#include "engine/sizes/size_field.h"
 
 namespace ccdt::refine {
 
@@ -25,6 +25,6 @@ inline Point3 at_fraction(const std::array<Point3, 2>& ends, std::uint32_t fract
 /// \param least  how near to each end vertices may be
 /// \return  fractions, in increasing order
 std::vector<std::uint32_t> divide_segment(const std::array<Point3, 2>& ends, const LeastDistances& least,
-                                          SurfaceSizes& sizes);
+                                          sizes::SizeWalk& sizes);
 
 }  // namespace ccdt::refine

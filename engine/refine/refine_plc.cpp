@@ -16,7 +16,8 @@
 #include "engine/refine/close_segments.h"
 #include "engine/refine/divide_segment.h"
 #include "engine/refine/facet_triangulation.h"
-#include "engine/refine/surface_sizes.h"
+#include "engine/sizes/size_field.h"
+#include "engine/sizes/thin_places.h"
 
 namespace ccdt::refine {
 namespace {
@@ -52,6 +53,9 @@ constexpr double tetrahedra_of_triangle = 25;
 constexpr double least_excess = 0.3, most_excess = 1.3;
 constexpr int most_tries = 4;
 
+/// Thin places are found for up to this times the allowed tetrahedra, because their number is only an estimate then.
+constexpr double excess_of_estimate = 4;
+
 struct Shape {
   Point3 circumcenter;
   double radius = 0, shortest = 0;
@@ -78,7 +82,7 @@ Shape shape_of(const std::array<Point3, 3>& t) {
 class Refiner {
  public:
   /// \param sizes, least_distances  must outlive this
-  Refiner(plc::Plc plc, SurfaceSizes& sizes, const std::vector<LeastDistances>& least_distances,
+  Refiner(plc::Plc plc, const sizes::SizeField& sizes, const std::vector<LeastDistances>& least_distances,
           const Progress& progress)
       : plc_(std::move(plc)),
         sizes_(sizes),
@@ -415,7 +419,7 @@ class Refiner {
   }
 
   plc::Plc plc_;
-  SurfaceSizes& sizes_;
+  sizes::SizeWalk sizes_;
   const Progress& progress_;
   std::vector<Point3> points_;        // with those that were added
   std::vector<PlaceOfVertex> place_;  // of each
@@ -439,22 +443,22 @@ double count_even_triangles(const plc::Plc& plc, double edge_length) {
 }
 
 /// The next limit to try, between one that makes too many tetrahedra and one that makes too few (0: not known yet).
-double next_limit(const SurfaceSizes& sizes, double excess, double too_many, double too_few) {
+double next_limit(double too_many, double too_few) {
   constexpr double first_step = 4;
-  if (too_few == 0) return sizes.least_for(1 / excess);
   return too_many == 0 ? too_few / first_step : std::sqrt(too_many * too_few);
 }
 
 }  // namespace
 
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress) {
-  SurfaceSizes sizes(plc, options);
+  const std::vector<sizes::SizedPlace> places =
+      sizes::find_thin_places(plc, options.edge_length, excess_of_estimate * options.most_tetrahedra);
   const std::vector<LeastDistances> least_distances = find_close_segments(plc);
   const double even_triangles = count_even_triangles(plc, options.edge_length);
   double least = options.least_size, too_many = 0, too_few = 0;
   for (int tries = options.least_size > 0 ? most_tries : 1;; ++tries) {
-    sizes.limit_from_below(least);
-    Refiner refiner(plc, sizes, least_distances, progress);
+    const sizes::SizeField field(options.edge_length, options.grading, sizes::limited_from_below(places, least));
+    Refiner refiner(plc, field, least_distances, progress);
     refiner.run();
     const double excess = tetrahedra_of_triangle * (static_cast<double>(refiner.triangle_count()) - even_triangles) /
                           options.most_tetrahedra;
@@ -466,7 +470,8 @@ RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const P
       return result;
     }
     (excess > most_excess ? too_many : too_few) = least;
-    least = next_limit(sizes, excess, too_many, too_few);
+    least = too_few == 0 ? sizes::limit_for_share(places, 1 / excess, least, options.edge_length)
+                         : next_limit(too_many, too_few);
   }
 }
 

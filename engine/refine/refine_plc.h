@@ -25,9 +25,9 @@ struct RefinedPlc {
   double least_size = 0;             ///< the `least_size` that was used
 };
 
-/// Gives facets and segments new vertices, so that their triangles are well shaped and have edges of the wanted lengths
-/// (`SurfaceSizes`). Segments are divided first. Then each facet is refined at circumcenters of its worst triangles
-/// (Chew 1993, Ruppert 1995, Shewchuk 2002).
+/// Gives facets and segments new vertices, so that their triangles are well shaped and have edges of the wanted length,
+/// or shorter ones at thin places (`sizes::find_thin_places`). Segments are divided first. Then each facet is refined
+/// at circumcenters of its worst triangles (Chew 1993, Ruppert 1995, Shewchuk 2002).
 ///
 /// A vertex inside a segment is a dyadic fraction of it, and one inside a facet a corner of it plus integer multiples
 /// of two steps in its plane (`plc::PlaneSteps`), so all are exactly in place. In a facet that is flat only within the

@@ -1,4 +1,4 @@
-#include "engine/refine/thin_places.h"
+#include "engine/sizes/thin_places.h"
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,8 @@
 #include "engine/base/closest_on_triangle.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
-#include "engine/lattice/size_field.h"
 
-namespace ccdt::refine {
+namespace ccdt::sizes {
 
 /// The cube that a point is in, in a grid of one facet whose edges are the greatest power of two that is not above a
 /// size.
@@ -25,12 +24,12 @@ struct SampleCell {
   bool operator==(const SampleCell&) const = default;
 };
 
-}  // namespace ccdt::refine
+}  // namespace ccdt::sizes
 
 template <>
-struct ccdt::HashTraits<ccdt::refine::SampleCell> {
-  static constexpr refine::SampleCell none() { return {{}, 0, 0xFFFFFFFFu}; }
-  static std::size_t hash(const refine::SampleCell& cell) {
+struct ccdt::HashTraits<ccdt::sizes::SampleCell> {
+  static constexpr sizes::SampleCell none() { return {{}, 0, 0xFFFFFFFFu}; }
+  static std::size_t hash(const sizes::SampleCell& cell) {
     std::uint64_t h = std::uint64_t{cell.facet} << 32 | static_cast<std::uint32_t>(cell.exponent);
     for (const std::int64_t x : cell.place)
       h = ((h ^ h >> 29) + static_cast<std::uint64_t>(x)) * std::uint64_t{0x9E3779B97F4A7C15};
@@ -38,10 +37,9 @@ struct ccdt::HashTraits<ccdt::refine::SampleCell> {
   }
 };
 
-namespace ccdt::refine {
+namespace ccdt::sizes {
 namespace {
 
-using Item = lattice::SizeTree::Item;
 using Triangle = std::array<Point3, 3>;
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
@@ -95,7 +93,7 @@ class Strips {
   }
 
   /// Measures the pieces that are longer than a length, which decreases from call to call.
-  void measure(double least, std::vector<SizedPoint>& places) {
+  void measure(double least, std::vector<SizedPlace>& places) {
     const std::vector<Piece> pieces = std::exchange(open_, {});
     for (const Piece& piece : pieces) measure(piece, least, places);
   }
@@ -110,7 +108,7 @@ class Strips {
   };
   struct Edges {
     std::vector<FacetEdge> edges;
-    lattice::SizeTree tree;
+    SizeTree tree;
   };
   struct Piece {
     std::array<Point3, 2> ends;
@@ -147,16 +145,16 @@ class Strips {
   void begin(std::vector<FacetEdge> edges) {
     if (edges.size() <= 3) return;  // in a triangle, all edges meet
     const auto facet = static_cast<std::uint32_t>(facets_.size());
-    std::vector<Item> items;
+    std::vector<SizedPlace> items;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
       const auto [a, b] = edges[i].ends;
       items.push_back({hull(box_of(point(a)), box_of(point(b))), 0, i});
       open_.push_back({{point(a), point(b)}, facet, i, i});
     }
-    facets_.push_back({std::move(edges), lattice::SizeTree(items)});
+    facets_.push_back({std::move(edges), SizeTree(items)});
   }
 
-  void measure(Piece piece, double least, std::vector<SizedPoint>& places) {
+  void measure(Piece piece, double least, std::vector<SizedPlace>& places) {
     const auto [a, b] = piece.ends;
     const double size = length(b - a);
     if (size <= least && size > 0) {
@@ -165,7 +163,7 @@ class Strips {
     }
     const Point3 middle = 0.5 * (a + b);
     const double width = width_at(middle, piece);
-    if (of_strip * width < largest_) places.push_back({middle, of_strip * width});
+    if (of_strip * width < largest_) places.push_back({box_of(middle), of_strip * width});
     if (size <= width) return;
     piece.ends = {a, middle};
     measure(piece, least, places);
@@ -192,7 +190,7 @@ class Strips {
     };
     try_edge(piece.near);
     const auto distance = [&](const Box& box, double) { return std::sqrt(squared_distance(box, p)); };
-    facet.tree.any(width, distance, [&](const Item& item) {
+    facet.tree.any(width, distance, [&](const SizedPlace& item) {
       try_edge(item.number);
       return false;
     });
@@ -224,13 +222,13 @@ class Walls {
           if (facets_of_vertex_[v].empty() || facets_of_vertex_[v].back() != f) facets_of_vertex_[v].push_back(f);
       }
     }
-    std::vector<Item> items;
+    std::vector<SizedPlace> items;
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) items.push_back({bounding_box(triangles_[i].corners), 0, i});
-    tree_ = lattice::SizeTree(items);
+    tree_ = SizeTree(items);
   }
 
   /// Measures the pieces that are longer than a length, which decreases from call to call.
-  void measure(double least, std::vector<SizedPoint>& places) {
+  void measure(double least, std::vector<SizedPlace>& places) {
     const std::vector<Piece> pieces = std::exchange(open_, {});
     for (const Piece& piece : pieces) {
       if (met_by_[piece.facet] != piece.facet) mark_facets_around(piece.facet);
@@ -276,7 +274,7 @@ class Walls {
         for (const std::uint32_t g : facets_of_vertex_[v]) met_by_[g] = facet;
   }
 
-  void measure(Piece piece, double least, std::vector<SizedPoint>& places) {
+  void measure(Piece piece, double least, std::vector<SizedPlace>& places) {
     const auto [a, b, c] = longest_edge_first(piece.corners);
     const double size = length(b - a);
     if (size <= least) {
@@ -288,7 +286,7 @@ class Walls {
     const auto [sample, is_new] = known_.insert(cell_of(center, size, piece.facet), {});
     if (is_new) {
       *sample = sample_at(center, piece);
-      if (of_wall * sample->width < largest_) places.push_back({center, of_wall * sample->width});
+      if (of_wall * sample->width < largest_) places.push_back({box_of(center), of_wall * sample->width});
     }
     if (size <= sample->width) return;
     piece.near = sample->near;
@@ -327,7 +325,7 @@ class Walls {
       const double least = std::sqrt(squared_distance(box, p));
       return height > 0 && least < 2 * height ? least : HUGE_VAL;
     };
-    tree_.any(width, distance, [&](const Item& item) {
+    tree_.any(width, distance, [&](const SizedPlace& item) {
       try_triangle(item.number);
       return false;
     });
@@ -338,7 +336,7 @@ class Walls {
   std::vector<std::vector<std::uint32_t>> facets_of_vertex_;
   std::vector<std::uint32_t> met_by_;  // by facet: the last facet that searched and shares a vertex with it
   std::vector<FacetTriangle> triangles_;
-  lattice::SizeTree tree_;
+  SizeTree tree_;
   HashTable<SampleCell, Sample> known_;
   std::vector<Piece> open_;
 };
@@ -346,48 +344,49 @@ class Walls {
 // ---- All ------------------------------------------------------------------------------------------------------------
 
 /// The number of cubes of a grid that have a place whose size is below twice their edge.
-std::size_t count_cubes(const std::vector<SizedPoint>& places, double edge) {
+std::size_t count_cubes(const std::vector<SizedPlace>& places, double edge) {
   HashSet<SampleCell> cubes;
-  for (const SizedPoint& p : places)
+  for (const SizedPlace& p : places)
     if (p.size < 2 * edge)
-      cubes.insert({{static_cast<std::int64_t>(std::floor(p.point.x / edge)),
-                     static_cast<std::int64_t>(std::floor(p.point.y / edge)),
-                     static_cast<std::int64_t>(std::floor(p.point.z / edge))},
+      cubes.insert({{static_cast<std::int64_t>(std::floor(p.box.low.x / edge)),
+                     static_cast<std::int64_t>(std::floor(p.box.low.y / edge)),
+                     static_cast<std::int64_t>(std::floor(p.box.low.z / edge))},
                     0,
                     0});
   return cubes.size();
 }
 
 /// Both ends and the middle of each segment that is shorter than a length.
-std::vector<SizedPoint> find_short_segments(const plc::Plc& plc, double largest) {
-  std::vector<SizedPoint> places;
+std::vector<SizedPlace> find_short_segments(const plc::Plc& plc, double largest) {
+  std::vector<SizedPlace> places;
   for (const plc::Segment& s : plc.segments) {
     const Point3 &a = plc.vertices[s.ends[0]], &b = plc.vertices[s.ends[1]];
     const double size = length(b - a);
     if (size < largest)
-      for (const double t : {0.0, 0.5, 1.0}) places.push_back({a + t * (b - a), size});
+      for (const double t : {0.0, 0.5, 1.0}) places.push_back({box_of(a + t * (b - a)), size});
   }
   return places;
 }
 
-std::vector<SizedPoint> joined(std::vector<SizedPoint> places, const std::vector<SizedPoint>& more) {
+std::vector<SizedPlace> joined(std::vector<SizedPlace> places, const std::vector<SizedPlace>& more) {
   places.insert(places.end(), more.begin(), more.end());
   return places;
 }
 
-void limit_from_below(std::vector<SizedPoint>& places, double least) {
-  for (SizedPoint& p : places) p.size = std::max(p.size, least);
+void limit_from_below(std::vector<SizedPlace>& places, double least) {
+  for (SizedPlace& p : places) p.size = std::max(p.size, least);
 }
 
 }  // namespace
 
-std::vector<SizedPoint> thinned(const std::vector<SizedPoint>& places) {
+std::vector<SizedPlace> limited_from_below(std::vector<SizedPlace> places, double limit) {
+  limit_from_below(places, limit);
   constexpr double nearness = 0.25;
   HashTable<SampleCell, std::uint32_t> number_of_cell;
-  std::vector<SizedPoint> least;
-  for (const SizedPoint& place : places) {
-    const auto [number, is_new] =
-        number_of_cell.insert(cell_of(place.point, nearness * place.size, 0), static_cast<std::uint32_t>(least.size()));
+  std::vector<SizedPlace> least;
+  for (const SizedPlace& place : places) {
+    const auto [number, is_new] = number_of_cell.insert(cell_of(place.box.low, nearness * place.size, 0),
+                                                        static_cast<std::uint32_t>(least.size()));
     if (is_new)
       least.push_back(place);
     else if (place.size < least[*number].size)
@@ -396,14 +395,30 @@ std::vector<SizedPoint> thinned(const std::vector<SizedPoint>& places) {
   return least;
 }
 
-std::vector<SizedPoint> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra) {
-  std::vector<SizedPoint> of_segments = find_short_segments(plc, largest), of_strips, of_walls;
+double limit_for_share(std::span<const SizedPlace> places, double share, double least, double largest) {
+  // In a plane, edges of length l instead of s leave (s / l)^2 of the vertices.
+  const auto left = [&](double limit) {
+    double sum = 0;
+    for (const SizedPlace& place : places) sum += std::min(1.0, place.size * place.size / (limit * limit));
+    return sum;
+  };
+  const double most = share * left(least);
+  double low = least, limit = largest;
+  for (int i = 0; i < 20; ++i) {
+    const double middle = 0.5 * (low + limit);
+    (left(middle) > most ? low : limit) = middle;
+  }
+  return limit;
+}
+
+std::vector<SizedPlace> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra) {
+  std::vector<SizedPlace> of_segments = find_short_segments(plc, largest), of_strips, of_walls;
   Strips strips(plc, largest);
   Walls walls(plc, largest);
   double least = largest, least_measured = largest, least_affordable = 0, tetrahedra = 0;
   const auto may_measure = [&] { return (!strips.are_measured() || walls.open() != 0) && walls.open() <= most_pieces; };
   const auto are_shorter = [&] {
-    return std::ranges::any_of(of_segments, [&](const SizedPoint& p) { return p.size < least; });
+    return std::ranges::any_of(of_segments, [&](const SizedPlace& p) { return p.size < least; });
   };
   for (int i = 0; i < most_halvings && (may_measure() || are_shorter()); ++i) {
     const bool measures = may_measure();
@@ -426,4 +441,4 @@ std::vector<SizedPoint> find_thin_places(const plc::Plc& plc, double largest, do
   return joined(joined(std::move(of_strips), of_walls), of_segments);
 }
 
-}  // namespace ccdt::refine
+}  // namespace ccdt::sizes

@@ -1,17 +1,12 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "engine/base/point.h"
 #include "engine/plc/plc.h"
+#include "engine/sizes/size_tree.h"
 
-namespace ccdt::refine {
-
-/// A place and the wanted edge length there.
-struct SizedPoint {
-  Point3 point;
-  double size;
-};
+namespace ccdt::sizes {
 
 /// The places where edges must be shorter than a length: on short segments, where two segments of a facet are near each
 /// other (strips), and where the domain is thin between two facets (walls).
@@ -23,9 +18,15 @@ struct SizedPoint {
 ///
 /// \param largest          the length, in grid units
 /// \param most_tetrahedra  about how many these places may lead to
-std::vector<SizedPoint> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra);
+std::vector<SizedPlace> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra);
 
-/// Of places that have about the same size and are near each other relative to it, only the least.
-std::vector<SizedPoint> thinned(const std::vector<SizedPoint>& places);
+/// Raises the sizes of places to at least this. Of those that then have about the same size and are near each other
+/// relative to it, only the least stay.
+std::vector<SizedPlace> limited_from_below(std::vector<SizedPlace> places, double least);
 
-}  // namespace ccdt::refine
+/// The limit from below that leaves about this share of the vertices at the places; `largest` if none does.
+///
+/// \param least  the present limit
+double limit_for_share(std::span<const SizedPlace> places, double share, double least, double largest);
+
+}  // namespace ccdt::sizes

@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "engine/base/errors.h"
-#include "engine/circumcenters/place_circumcenters.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/lattice/clear_sites.h"
 #include "engine/lattice/octree.h"
-#include "engine/lattice/size_field.h"
+#include "engine/lattice/place_circumcenters.h"
+#include "engine/lattice/target_sizes.h"
 #include "engine/tests/lattice_shapes.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -29,8 +29,7 @@ LatticeOptions refinement(double radius_edge, double edge_length = 0, double gra
 }
 
 std::vector<Point3> refine(const Shape& shape, const LatticeOptions& options) {
-  return circumcenters::place_circumcenters(surface_of(shape), delaunay::build_delaunay(shape.vertices), options)
-      .points;
+  return lattice::place_circumcenters(surface_of(shape), delaunay::build_delaunay(shape.vertices), options).points;
 }
 
 /// The circumcenter of a cell by Cramer's rule in long double, and what a cell is judged by.
@@ -108,7 +107,7 @@ std::size_t expect_all_refined(const Shape& shape, const LatticeOptions& options
   const delaunay::Delaunay d = delaunay::build_delaunay(points);
   const lattice::Octree tree = build_octree(
       surface_of(shape),
-      lattice::SizeField(surface_of(shape), options.edge_length, options.grading, options.background), options.kind);
+      lattice::target_sizes(surface_of(shape), options.edge_length, options.grading, options.background), options.kind);
   std::size_t good = 0;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     if (!d.is_finite(c)) continue;
@@ -118,7 +117,7 @@ std::size_t expect_all_refined(const Shape& shape, const LatticeOptions& options
     const lattice::OctreeNode& leaf = tree.leaf_with(s.center);
     const double target = edge_length_of_cell(options.kind, tree.length(tree.side(leaf)));
     const bool is_skinny = s.radius > more * options.radius_edge * s.shortest_edge,
-               is_large = s.radius > more * circumcenters::radius_per_edge * target;
+               is_large = s.radius > more * lattice::radius_per_edge * target;
     const bool is_bad = is_skinny || is_large;
     const bool has_reason =
         !is_bad || !is_inside(shape, s.center) ||
@@ -164,7 +163,7 @@ TEST(Circumcenters, AreIntegersInsideAndFarEnoughFromTheSurfaceAndFromEachOther)
       options.clearance = clearance;
       const std::vector<Point3> points = refine(shape, options);
       count += points.size();
-      const double least = 0.999 * std::min(circumcenters::radius_per_edge * options.edge_length, shape.unit / 2);
+      const double least = 0.999 * std::min(lattice::radius_per_edge * options.edge_length, shape.unit / 2);
       for (std::size_t i = 0; i < points.size(); ++i) {
         for (const double c : as_array(points[i])) ASSERT_EQ(c, std::round(c));
         ASSERT_TRUE(is_inside(shape, points[i]));
@@ -181,8 +180,8 @@ TEST(Circumcenters, DoNotDependOnTheOrderOfCells) {
     const delaunay::Delaunay inserted = delaunay::build_delaunay(shape.vertices);
     delaunay::Delaunay wrapped = delaunay::wrap_delaunay(inserted.vertices);
     ASSERT_NE(inserted.cells[1].vertices, wrapped.cells[1].vertices);
-    EXPECT_EQ(circumcenters::place_circumcenters(surface_of(shape), inserted, options).points,
-              circumcenters::place_circumcenters(surface_of(shape), wrapped, options).points);
+    EXPECT_EQ(lattice::place_circumcenters(surface_of(shape), inserted, options).points,
+              lattice::place_circumcenters(surface_of(shape), wrapped, options).points);
   }
 }
 
@@ -233,8 +232,8 @@ TEST(Circumcenters, NeedASurface) {
 }
 
 /// A background whose target is small in the middle of a cube and large at its surface.
-lattice::BackgroundSizes fine_middle(double unit, double coarse, double fine) {
-  lattice::BackgroundSizes background;
+sizes::BackgroundSizes fine_middle(double unit, double coarse, double fine) {
+  sizes::BackgroundSizes background;
   for (const double r : {5.0, 1.0})
     for (const Point3& axis : {Point3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}})
       for (const double sign : {-1.0, 1.0}) {
@@ -246,7 +245,7 @@ lattice::BackgroundSizes fine_middle(double unit, double coarse, double fine) {
 
 TEST(Circumcenters, FollowTheSizesOfABackground) {
   const Shape shape = cube(6);
-  lattice::BackgroundSizes background = fine_middle(shape.unit, 1, 0.2);
+  sizes::BackgroundSizes background = fine_middle(shape.unit, 1, 0.2);
   LatticeOptions options = refinement(1.5);
   options.background = &background;
   expect_all_refined(shape, options);

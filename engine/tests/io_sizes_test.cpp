@@ -35,7 +35,7 @@ TEST(ReadSizes, OfMeditBesideATetrahedralMesh) {
   const Folder folder;
   put(folder / "a.mesh", medit_tetrahedron);
   const auto file = put(folder / "a.sol", sol("4\n1 1", "1 2.5\n3\n0.25"));
-  const lattice::BackgroundSizes sizes = io::read_sizes(file);
+  const sizes::BackgroundSizes sizes = io::read_sizes(file);
   EXPECT_EQ(sizes.sizes, four_sizes);
   ASSERT_EQ(sizes.vertices.size(), 4u);
   EXPECT_EQ(sizes.vertices[3], (Point3{0, 0, 1}));
@@ -50,7 +50,7 @@ TEST(ReadSizes, OfMeditBesideASurfaceHaveNoTetrahedra) {
   put(folder / "a.mesh", medit_surface);
   // As mmg writes it, but for the End.
   put(folder / "a.sol", "MeshVersionFormatted 2\n\nDimension\n3\n\nSolAtVertices\n4\n1 1 \n1 \n2.5 \n3 \n0.25 \n");
-  const lattice::BackgroundSizes sizes = io::read_sizes(folder / "a.sol");
+  const sizes::BackgroundSizes sizes = io::read_sizes(folder / "a.sol");
   EXPECT_EQ(sizes.sizes, four_sizes);
   EXPECT_EQ(sizes.vertices.size(), 4u);
   EXPECT_TRUE(sizes.tetrahedra.empty());
@@ -71,7 +71,7 @@ TEST(ReadSizes, OfTetGenBesideAPlcThatHasItsVertices) {
   for (const std::string ending : {".poly", ".smesh"}) {
     const Folder folder;
     put(folder / ("part" + ending), nodes + facets);
-    const lattice::BackgroundSizes sizes = io::read_sizes(put(folder / "part.mtr", "4 1\n1\n2.5\n3\n0.25\n"));
+    const sizes::BackgroundSizes sizes = io::read_sizes(put(folder / "part.mtr", "4 1\n1\n2.5\n3\n0.25\n"));
     EXPECT_EQ(sizes.sizes, four_sizes);
     EXPECT_EQ(sizes.vertices.size(), 4u);
     EXPECT_EQ(std::filesystem::path(sizes.mesh_name).filename(), "part" + ending);

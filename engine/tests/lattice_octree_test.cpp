@@ -14,7 +14,7 @@ namespace {
 
 lattice::Octree octree_of(const Shape& shape, double edge_length, double grading) {
   const lattice::DomainSurface surface = surface_of(shape);
-  return lattice::build_octree(surface, lattice::SizeField(surface, edge_length, grading), lattice::Lattice::fcc);
+  return lattice::build_octree(surface, lattice::target_sizes(surface, edge_length, grading), lattice::Lattice::fcc);
 }
 
 TEST(LatticeOctree, HasLevelsThatDifferByOneAtMost) {

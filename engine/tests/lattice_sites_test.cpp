@@ -42,7 +42,7 @@ TEST(LatticeSites, AreTheLatticePointsOfAllLeaves) {
       for (const double grading : {0.0, 0.5, 2.0}) {
         const lattice::DomainSurface surface = surface_of(shape);
         const lattice::Octree tree =
-            lattice::build_octree(surface, lattice::SizeField(surface, 0.4 * shape.unit, grading), kind);
+            lattice::build_octree(surface, lattice::target_sizes(surface, 0.4 * shape.unit, grading), kind);
         const std::set<lattice::Site> sites = sites_of_all_leaves(tree, kind);
         EXPECT_GT(sites.size(), 100u);
         for (const unsigned threads : {1u, 3u})

@@ -14,8 +14,8 @@
 #include "engine/refine/close_segments.h"
 #include "engine/refine/refine_plc.h"
 #include "engine/refine/segment_fans.h"
-#include "engine/refine/surface_sizes.h"
-#include "engine/refine/thin_places.h"
+#include "engine/sizes/size_field.h"
+#include "engine/sizes/thin_places.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "engine/tests/sanitized.h"
@@ -141,6 +141,15 @@ TEST(Refine, ACubeGetsEvenTriangles) {
   EXPECT_GE(least_angle_of_faces(r.mesh), 29);
 }
 
+TEST(Refine, TheUnitOfLengthMayBeTiny) {
+  InputPlc tiny = unit_cube();
+  for (Point3& p : tiny.vertices) p = 0x1p-560 * p;
+  MeshOptions options = refining(0);
+  options.lattice = Lattice::none;
+  EXPECT_EQ(mesh_plc(tiny, options).mesh.tetrahedra, mesh_plc(unit_cube(), options).mesh.tetrahedra);
+  EXPECT_THROW(mesh_plc(tiny, refining(1e-300)), LimitError);
+}
+
 TEST(Refine, VerticesThatSplitSegmentsAreNotSteinerVertices) {
   EXPECT_EQ(mesh_plc(unit_cube(), refining(0.2)).counts.steiner_vertices, 0u);
 }
@@ -158,16 +167,17 @@ TEST(Refine, NarrowStripsGetEdgesThatFit) {
 TEST(Refine, SizesAreTheLeastOfAllThinPlaces) {
   const plc::Plc plc = plc::build_plc(beveled_square(0.01));
   const RefineOptions options{0.5 / plc.grid.unit, 0.3};
-  const std::vector<SizedPoint> places = find_thin_places(plc, options.edge_length, options.most_tetrahedra);
+  const std::vector<sizes::SizedPlace> places = sizes::find_thin_places(plc, options.edge_length, 2e6);
   ASSERT_GT(places.size(), 1000u);
-  SurfaceSizes sizes(plc, options);
+  const sizes::SizeField field(options.edge_length, options.grading, sizes::limited_from_below(places, 0));
+  sizes::SizeWalk walk(field);
   for (const auto& t : plc.triangles) {
     const auto [a, b, c] = corners(t, plc.vertices);
     for (const Point3& p : {a, 0.5 * (b + c), 0.01 * (99 * a + b), (1.0 / 3) * (a + b + c)}) {
       double least = options.edge_length;
-      for (const SizedPoint& place : places)
-        least = std::min(least, place.size + options.grading * length(place.point - p));
-      EXPECT_EQ(sizes.at(p), least);
+      for (const sizes::SizedPlace& place : places)
+        least = std::min(least, place.size + options.grading * length(place.box.low - p));
+      EXPECT_EQ(walk.at(p), least);
     }
   }
 }

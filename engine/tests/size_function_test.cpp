@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "engine/base/errors.h"
-#include "engine/lattice/size_field.h"
+#include "engine/lattice/target_sizes.h"
 #include "engine/tests/lattice_shapes.h"
 
 namespace ccdt::test {
@@ -18,8 +18,8 @@ namespace {
 
 /// A cube of n^3 small cubes, of six tetrahedra each, around [-half, half]^3.
 template <class Size>
-lattice::BackgroundSizes background_cube(int n, double half, const Size& size_at) {
-  lattice::BackgroundSizes b;
+sizes::BackgroundSizes background_cube(int n, double half, const Size& size_at) {
+  sizes::BackgroundSizes b;
   const auto vertex = [n](int x, int y, int z) { return std::uint32_t(x + (n + 1) * (y + (n + 1) * z)); };
   for (int z = 0; z <= n; ++z)
     for (int y = 0; y <= n; ++y)
@@ -41,7 +41,7 @@ lattice::BackgroundSizes background_cube(int n, double half, const Size& size_at
   return b;
 }
 
-lattice::BackgroundSizes without_tetrahedra(lattice::BackgroundSizes b) {
+sizes::BackgroundSizes without_tetrahedra(sizes::BackgroundSizes b) {
   b.tetrahedra.clear();
   return b;
 }
@@ -69,14 +69,14 @@ double edge_length_at(const std::vector<Point3>& points, const Point3& p) {
 TEST(InterpolatedSizes, AreLinearInATetrahedronCutByABox) {
   const std::array<Point3, 4> corners = {Point3{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 4}};
   const std::array<double, 4> values = {1, 5, 9, 13};  // 1 + x + 2 y + 3 z
-  EXPECT_NEAR(lattice::least_value(corners, values, {{0.5, 0.5, 0.5}, {1, 1, 1}}), 4, 1e-12);
-  EXPECT_NEAR(lattice::least_value(corners, values, {{-1, -1, -1}, {9, 9, 9}}), 1,
+  EXPECT_NEAR(sizes::least_value(corners, values, {{0.5, 0.5, 0.5}, {1, 1, 1}}), 4, 1e-12);
+  EXPECT_NEAR(sizes::least_value(corners, values, {{-1, -1, -1}, {9, 9, 9}}), 1,
               1e-12);  // the tetrahedron is in the box
-  EXPECT_NEAR(lattice::least_value(corners, values, {{2, -1, -1}, {9, 9, 9}}), 3, 1e-12);  // a corner is cut off
-  EXPECT_NEAR(lattice::least_value(corners, values, {{-1, -1, 1}, {9, 9, 1}}), 4, 1e-12);  // a flat box
-  EXPECT_EQ(lattice::least_value(corners, values, {{2, 2, 2}, {3, 3, 3}}), HUGE_VAL);  // only the bounding boxes meet
+  EXPECT_NEAR(sizes::least_value(corners, values, {{2, -1, -1}, {9, 9, 9}}), 3, 1e-12);  // a corner is cut off
+  EXPECT_NEAR(sizes::least_value(corners, values, {{-1, -1, 1}, {9, 9, 1}}), 4, 1e-12);  // a flat box
+  EXPECT_EQ(sizes::least_value(corners, values, {{2, 2, 2}, {3, 3, 3}}), HUGE_VAL);      // only the bounding boxes meet
   const std::array<Point3, 4> flat = {corners[0], corners[1], corners[2], Point3{1, 1, 0}};
-  EXPECT_EQ(lattice::least_value(flat, values, {{0, 0, 0}, {1, 1, 1}}), HUGE_VAL);
+  EXPECT_EQ(sizes::least_value(flat, values, {{0, 0, 0}, {1, 1, 1}}), HUGE_VAL);
 }
 
 TEST(InterpolatedSizes, AreTheLeastOverAnyBoxOfAFineOrACoarseBackground) {
@@ -84,8 +84,8 @@ TEST(InterpolatedSizes, AreTheLeastOverAnyBoxOfAFineOrACoarseBackground) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   for (const int n : {1, 3, 10}) {
-    const lattice::BackgroundSizes background = background_cube(n, 1, size_at);
-    const lattice::InterpolatedSizes sizes(background);
+    const sizes::BackgroundSizes background = background_cube(n, 1, size_at);
+    const sizes::InterpolatedSizes sizes(background);
     for (int i = 0; i < 200; ++i) {
       const Point3 p{coordinate(random), coordinate(random), coordinate(random)};
       const Point3 q{coordinate(random), coordinate(random), coordinate(random)};
@@ -96,9 +96,8 @@ TEST(InterpolatedSizes, AreTheLeastOverAnyBoxOfAFineOrACoarseBackground) {
 }
 
 TEST(InterpolatedSizes, AreThoseOfTheNearestVertexOutside) {
-  const lattice::BackgroundSizes background =
-      background_cube(1, 1, [](const Point3& p) { return p.x > 0 ? 5.0 : 2.0; });
-  const lattice::InterpolatedSizes sizes(background);
+  const sizes::BackgroundSizes background = background_cube(1, 1, [](const Point3& p) { return p.x > 0 ? 5.0 : 2.0; });
+  const sizes::InterpolatedSizes sizes(background);
   EXPECT_NEAR(least_target(sizes, {{7, 1, 1}, {8, 2, 2}}), 5, 1e-9);
   EXPECT_NEAR(least_target(sizes, {{-8, 1, 1}, {-7, 2, 2}}), 2, 1e-9);
   EXPECT_NEAR(least_target(sizes, {{-1, 7, 1}, {1, 8, 2}}), 2, 1e-9);  // half and half
@@ -106,8 +105,8 @@ TEST(InterpolatedSizes, AreThoseOfTheNearestVertexOutside) {
 
 TEST(SizeField, OfABackgroundIsTheLeastOverVerticesOfSizePlusGradingTimesDistance) {
   const Shape shape = cube(2);
-  const lattice::BackgroundSizes two{{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}};
-  const lattice::SizeField field(surface_of(shape), 0, 0.5, &two);
+  const sizes::BackgroundSizes two{{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}};
+  const sizes::SizeField field = lattice::target_sizes(surface_of(shape), 0, 0.5, &two).field;
   EXPECT_NEAR(least_target(field, {{0, 0, 0}, {0, 0, 0}}), 1, 1e-9);
   EXPECT_NEAR(least_target(field, {{0, 10, 0}, {0, 10, 0}}), 6, 1e-9);
   EXPECT_NEAR(least_target(field, {{100, 0, 0}, {100, 0, 0}}), 3, 1e-9);
@@ -116,12 +115,12 @@ TEST(SizeField, OfABackgroundIsTheLeastOverVerticesOfSizePlusGradingTimesDistanc
 
 TEST(SizeField, OfABackgroundIsBoundedByTheEdgeLength) {
   const Shape shape = cube(2);
-  const lattice::BackgroundSizes background = background_cube(2, 1, [](const Point3& p) { return 3 + 2 * p.x; });
-  for (const lattice::BackgroundSizes& b : {background, without_tetrahedra(background)}) {
-    const lattice::SizeField field(surface_of(shape), 1.5, 0.5, &b);
+  const sizes::BackgroundSizes background = background_cube(2, 1, [](const Point3& p) { return 3 + 2 * p.x; });
+  for (const sizes::BackgroundSizes& b : {background, without_tetrahedra(background)}) {
+    const auto [field, reference] = lattice::target_sizes(surface_of(shape), 1.5, 0.5, &b);
     EXPECT_NEAR(least_target(field, {{0.9, 0, 0}, {1, 0.1, 0.1}}), 1.5, 1e-9);
     EXPECT_NEAR(least_target(field, {{-1, 0, 0}, {-0.9, 0.1, 0.1}}), 1, 1e-9);
-    EXPECT_EQ(field.reference(), 1.5);
+    EXPECT_EQ(reference, 1.5);
   }
 }
 
@@ -129,7 +128,7 @@ TEST(SizeFunction, ThatIsConstantMakesTheLatticeOfThatEdgeLength) {
   const Shape shape = cube(6);
   for (const double part : {0.3, 0.45, 0.7}) {
     const double edge_length = part * shape.unit;
-    const lattice::BackgroundSizes constant =
+    const sizes::BackgroundSizes constant =
         background_cube(3, 4 * shape.unit, [&](const Point3&) { return edge_length; });
     for (const lattice::Lattice kind : lattices) {
       lattice::LatticeOptions options{kind, edge_length, 0};
@@ -146,7 +145,7 @@ TEST(SizeFunction, ThatIsLinearIsFollowedWithinTheSquareRootOfTwo) {
   const double half = 6 * shape.unit;
   const auto size_at = [&](const Point3& p) { return shape.unit * (0.7 + 0.5 * p.x / half); };
   for (const int n : {1, 9}) {  // a coarse background says the same as a fine one
-    const lattice::BackgroundSizes background = background_cube(n, half, size_at);
+    const sizes::BackgroundSizes background = background_cube(n, half, size_at);
     lattice::LatticeOptions options;
     options.background = &background;
     options.sphere_factor = 0;
@@ -166,7 +165,7 @@ TEST(SizeFunction, ThatIsLinearIsFollowedWithinTheSquareRootOfTwo) {
 
 TEST(SizeFunction, OfVerticesAloneIsFineAroundTheOneThatIs) {
   const Shape shape = cube(12);
-  const lattice::BackgroundSizes background{
+  const sizes::BackgroundSizes background{
       {}, {}, {shape.unit * Point3{2, 2, 2}, shape.unit * Point3{-4, -4, -4}}, {}, {0.1 * shape.unit, 2 * shape.unit}};
   lattice::LatticeOptions options;
   options.background = &background;
@@ -181,7 +180,7 @@ TEST(SizeFunction, OfVerticesAloneIsFineAroundTheOneThatIs) {
 
 TEST(SizeFunction, TakesThePlaceOfTheSurfacesOwnEdgeLengths) {
   const Shape coarse = cube(2), fine = cube(8);  // the same cube in grid units, twice
-  const lattice::BackgroundSizes background =
+  const sizes::BackgroundSizes background =
       background_cube(2, coarse.unit, [&](const Point3&) { return coarse.unit * 0.125; });
   lattice::LatticeOptions options;
   options.background = &background;
@@ -192,8 +191,7 @@ TEST(SizeFunction, TakesThePlaceOfTheSurfacesOwnEdgeLengths) {
 
 TEST(SizeFunction, ThatAsksForTooMuchIsDeclinedBeforeItFillsTheMemory) {
   const Shape shape = cube(2);
-  const lattice::BackgroundSizes tiny =
-      background_cube(1, shape.unit, [&](const Point3&) { return 1e-4 * shape.unit; });
+  const sizes::BackgroundSizes tiny = background_cube(1, shape.unit, [&](const Point3&) { return 1e-4 * shape.unit; });
   lattice::LatticeOptions options;
   options.background = &tiny;
   EXPECT_THROW(shape.place(options), LimitError);

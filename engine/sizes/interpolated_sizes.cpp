@@ -1,0 +1,150 @@
+#include "engine/sizes/interpolated_sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace ccdt::sizes {
+namespace {
+
+/// The part of a segment, from 0 to 1, where some linear functions are not negative.
+struct Part {
+  double from = 0, to = 1;
+
+  /// \param a,b  the values of a linear function at the ends
+  void clip(double a, double b) {
+    if (a < 0 && b < 0) to = -1;
+    if (a < 0 && b >= 0) from = std::max(from, a / (a - b));
+    if (a >= 0 && b < 0) to = std::min(to, a / (a - b));
+  }
+  bool is_empty() const { return from > to; }
+  double least(double a, double b) const { return std::min(a + from * (b - a), a + to * (b - a)); }
+};
+
+/// The distance of a point from the six planes of a box, positive inside.
+std::array<double, 6> depths(const Box& box, const Point3& p) {
+  return {p.x - box.low.x, p.y - box.low.y, p.z - box.low.z, box.high.x - p.x, box.high.y - p.y, box.high.z - p.z};
+}
+
+template <std::size_t Count>
+Part common_part(const std::array<double, Count>& a, const std::array<double, Count>& b) {
+  Part part;
+  for (std::size_t i = 0; i < Count; ++i) part.clip(a[i], b[i]);
+  return part;
+}
+
+/// Barycentric coordinates in one tetrahedron.
+class Barycentric {
+ public:
+  explicit Barycentric(const std::array<Point3, 4>& corners) : origin_(corners[0]) {
+    const Point3 b = corners[1] - origin_, c = corners[2] - origin_, d = corners[3] - origin_;
+    sixfold_volume_ = dot(cross(b, c), d);
+    if (is_flat()) return;
+    normals_ = {(1 / sixfold_volume_) * cross(c, d), (1 / sixfold_volume_) * cross(d, b),
+                (1 / sixfold_volume_) * cross(b, c)};
+  }
+  bool is_flat() const { return sixfold_volume_ == 0; }
+  std::array<double, 4> at(const Point3& p) const {
+    const Point3 q = p - origin_;
+    const double b = dot(normals_[0], q), c = dot(normals_[1], q), d = dot(normals_[2], q);
+    return {1 - b - c - d, b, c, d};
+  }
+
+ private:
+  Point3 origin_;
+  double sixfold_volume_ = 0;
+  std::array<Point3, 3> normals_;
+};
+
+Point3 corner(const Box& box, unsigned i) {
+  return {i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y, i & 4 ? box.high.z : box.low.z};
+}
+
+}  // namespace
+
+// The least value is at a corner of the common part, and each of those is on an edge of the one or of the other.
+double least_value(const std::array<Point3, 4>& corners, const std::array<double, 4>& values, const Box& box) {
+  double least = HUGE_VAL;
+  const Barycentric barycentric(corners);
+  if (barycentric.is_flat()) return least;
+  std::array<std::array<double, 6>, 4> depth;
+  for (unsigned i = 0; i < 4; ++i) depth[i] = depths(box, corners[i]);
+  for (unsigned i = 0; i < 4; ++i) {
+    for (unsigned j = 0; j < i; ++j) {
+      const Part part = common_part(depth[i], depth[j]);
+      if (!part.is_empty()) least = std::min(least, part.least(values[i], values[j]));
+    }
+  }
+  std::array<std::array<double, 4>, 8> weights;
+  std::array<double, 8> value_at;
+  for (unsigned i = 0; i < 8; ++i) {
+    weights[i] = barycentric.at(corner(box, i));
+    value_at[i] = 0;
+    for (unsigned k = 0; k < 4; ++k) value_at[i] += weights[i][k] * values[k];
+  }
+  for (unsigned i = 0; i < 8; ++i) {
+    for (unsigned axis = 1; axis < 8; axis *= 2) {
+      const unsigned j = i | axis;
+      if (j == i) continue;
+      const Part part = common_part(weights[i], weights[j]);
+      if (!part.is_empty()) least = std::min(least, part.least(value_at[i], value_at[j]));
+    }
+  }
+  return least;
+}
+
+InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(background) {
+  std::vector<SizedPlace> tetrahedra, vertices;
+  for (std::uint32_t t = 0; t < background.tetrahedra.size(); ++t) {
+    const auto& v = background.tetrahedra[t];
+    std::array<Point3, 4> corners;
+    double size = HUGE_VAL;
+    for (unsigned i = 0; i < 4; ++i) {
+      corners[i] = background.vertices[v[i]];
+      size = std::min(size, background.sizes[v[i]]);
+    }
+    tetrahedra.push_back({bounding_box(corners), size, t});
+  }
+  for (std::uint32_t v = 0; v < background.vertices.size(); ++v)
+    vertices.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], v});
+  tetrahedra_ = SizeTree(tetrahedra);
+  vertices_ = SizeTree(vertices);
+}
+
+double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) const {
+  std::array<Point3, 4> corners;
+  std::array<double, 4> sizes;
+  for (unsigned i = 0; i < 4; ++i) {
+    const std::uint32_t v = background_.tetrahedra[tetrahedron][i];
+    corners[i] = background_.vertices[v];
+    sizes[i] = background_.sizes[v];
+  }
+  return least_value(corners, sizes, box);
+}
+
+bool InterpolatedSizes::is_below(const Box& box, double bound) const {
+  const auto least_if_meeting = [&](const Box& other, double size) { return other.meets(box) ? size : HUGE_VAL; };
+  if (tetrahedra_.any(bound, least_if_meeting,
+                      [&](const SizedPlace& item) { return least_in(box, item.number) < bound; }))
+    return true;
+  const bool meets = tetrahedra_.any(HUGE_VAL, least_if_meeting,
+                                     [&](const SizedPlace& item) { return least_in(box, item.number) < HUGE_VAL; });
+  return !meets && is_below_outside(box, bound);
+}
+
+/// A vertex whose least distance to the box exceeds the greatest distance of another is nearest to no point of the box.
+bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
+  double farthest = HUGE_VAL;
+  const auto distance = [&](const Box& other, double) { return squared_distance(other, box); };
+  vertices_.any(farthest, distance, [&](const SizedPlace& item) {
+    farthest = std::min(farthest, squared_farthest_distance(box, item.box.low));
+    return false;
+  });
+  const auto size_if_near = [&](const Box& other, double size) {
+    return distance(other, size) <= farthest ? size : HUGE_VAL;
+  };
+  return vertices_.any(bound, size_if_near, [](const SizedPlace&) { return true; });
+}
+
+}  // namespace ccdt::sizes

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "engine/base/box.h"
+#include "engine/sizes/background_sizes.h"
+#include "engine/sizes/size_tree.h"
+
+namespace ccdt::sizes {
+
+/// Sizes that are given at the vertices of a tetrahedral mesh. Within a tetrahedron they are linear; outside of all, a
+/// point has the size of the nearest vertex.
+class InterpolatedSizes {
+ public:
+  /// \param background  must outlive this
+  explicit InterpolatedSizes(const BackgroundSizes& background);
+
+  /// Is the size below `bound` anywhere in the box? Only the part of the box inside the mesh counts, if there is one.
+  bool is_below(const Box& box, double bound) const;
+
+ private:
+  double least_in(const Box& box, std::uint32_t tetrahedron) const;
+  bool is_below_outside(const Box& box, double bound) const;
+
+  const BackgroundSizes& background_;
+  SizeTree tetrahedra_, vertices_;
+};
+
+/// The least value within both a tetrahedron and a box of the linear function that has the given values at the corners;
+/// infinite if the two do not meet, or if the tetrahedron is flat. Up to rounding.
+double least_value(const std::array<Point3, 4>& corners, const std::array<double, 4>& values, const Box& box);
+
+}  // namespace ccdt::sizes
