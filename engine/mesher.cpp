@@ -115,7 +115,6 @@ struct Tetrahedralization {
   std::vector<Point3> points;                ///< of the mesh, in grid units
   std::size_t first_interior = 0;            ///< of the points
   std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
-  double least_size = 0;                     ///< that refinement of the surface found affordable
   MeshCounts counts;
   std::optional<front::Stuck> stuck;  ///< if there is a mesh all the same, parts of it overlap within the tolerance
   facets::FacetMesh facets;           ///< if stuck
@@ -308,20 +307,17 @@ CheckedInput check_input(const InputPlc& input, const MeshOptions& options, cons
 
 /// Gives the PLC the vertices of refinement.
 ///
-/// \param least_size  of `RefineOptions`
-/// \return            all points: those of the PLC, then those on segments
-std::vector<Point3> refine_surface(const MeshOptions& options, double least_size, const Progress& progress,
-                                   StageCosts& costs, Tetrahedralization& t) {
+/// \return  all points: those of the PLC, then those on segments
+std::vector<Point3> refine_surface(const MeshOptions& options, const Progress& progress, StageCosts& costs,
+                                   Tetrahedralization& t) {
   const std::size_t vertices_before = t.plc.vertices.size();
   refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
     return refine::refine_plc(t.plc,
                               {.edge_length = options.edge_length / t.plc.grid.unit,
                                .grading = options.grading,
-                               .most_tetrahedra = options.thin_tetrahedra,
-                               .least_size = least_size},
+                               .most_tetrahedra = options.thin_tetrahedra},
                               progress);
   });
-  t.least_size = refined.least_size;
   t.plc = std::move(refined.plc);
   t.chains = std::move(refined.chains);
   t.counts.refined_in_facets = t.plc.vertices.size() - vertices_before;
@@ -332,10 +328,8 @@ std::vector<Point3> refine_surface(const MeshOptions& options, double least_size
 }
 
 /// All stages but improvement.
-///
-/// \param least_size  of `RefineOptions`
 Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, const retry::Remedies& remedies,
-                                  double least_size, const Progress& progress, StageCosts& costs) {
+                                  const Progress& progress, StageCosts& costs) {
   Tetrahedralization t;
   CheckedInput checked = check_input(input, options, remedies.strictness, progress, costs);
   t.plc = std::move(checked.plc);
@@ -348,8 +342,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     });
   }
   if (options.refine_surface)
-    delaunay =
-        tetrahedralize_vertices(refine_surface(options, least_size, progress, costs, t), options, progress, costs);
+    delaunay = tetrahedralize_vertices(refine_surface(options, progress, costs, t), options, progress, costs);
   if (!delaunay) delaunay::refuse_flat_points();
   protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
     return retry::split_pieces(
@@ -401,7 +394,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
 Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const MeshOptions& options,
                                                 const Progress& progress, StageCosts& costs) {
   retry::Remedies remedies;
-  Tetrahedralization t = tetrahedralize(input, options, remedies, 0, progress, costs);
+  Tetrahedralization t = tetrahedralize(input, options, remedies, progress, costs);
   std::optional<Tetrahedralization> overlapping;
   const auto keep_overlapping = [&] {
     if (!overlapping && !t.mesh.tetrahedra.empty()) overlapping = std::move(t);
@@ -413,7 +406,7 @@ Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const Mes
       throw MeshError(t.stuck->error);
     }
     try {
-      Tetrahedralization next = tetrahedralize(input, options, remedies, t.least_size, progress, costs);
+      Tetrahedralization next = tetrahedralize(input, options, remedies, progress, costs);
       keep_overlapping();
       t = std::move(next);
     } catch (const LimitError&) {  // the new segments are too close to others

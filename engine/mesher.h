@@ -51,7 +51,7 @@ struct MeshOptions {
                              ///< one level, because searching for cores would then take longer; 0: always search
   double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
   bool refine_surface = false;   ///< give facets and segments vertices for even triangles; see `refine::refine_plc`
-  double thin_tetrahedra = 2e6;  ///< about how many thin places of a refined surface may lead to
+  double thin_tetrahedra = 2e6;  ///< at most about these are due to thin places of a refined surface
   double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it, or, if that
                            ///< is refined, a fortieth of the diagonal of the bounding box
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform

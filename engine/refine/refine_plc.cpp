@@ -48,14 +48,6 @@ constexpr double most_shift = 0.2;
 /// 21 to 27.
 constexpr double tetrahedra_of_triangle = 25;
 
-/// The surface is refined with other limits until the tetrahedra are between these multiples of the allowed number, but
-/// at most this often.
-constexpr double least_excess = 0.3, most_excess = 1.3;
-constexpr int most_tries = 4;
-
-/// Thin places are found for up to this times the allowed tetrahedra, because their number is only an estimate then.
-constexpr double excess_of_estimate = 4;
-
 struct Shape {
   Point3 circumcenter;
   double radius = 0, shortest = 0;
@@ -81,14 +73,13 @@ Shape shape_of(const std::array<Point3, 3>& t) {
 
 class Refiner {
  public:
-  /// \param sizes, least_distances  must outlive this
-  Refiner(plc::Plc plc, const sizes::SizeField& sizes, const std::vector<LeastDistances>& least_distances,
-          const Progress& progress)
+  /// \param field  must outlive this
+  Refiner(plc::Plc plc, const sizes::SizeField& field, const Progress& progress)
       : plc_(std::move(plc)),
-        sizes_(sizes),
+        sizes_(field),
         progress_(progress),
         points_(plc_.vertices),
-        least_distances_(least_distances),
+        least_distances_(find_close_segments(plc_)),
         facets_of_segment_(plc_.segments.size()) {
     std::vector<std::array<VertexId, 2>> edges;
     for (const plc::Segment& s : plc_.segments) edges.push_back(s.ends);
@@ -103,12 +94,6 @@ class Refiner {
     for (std::uint32_t f = 0; f < facets_.size(); ++f)
       for (std::uint32_t t = 0; t < triangulation(f).triangles.size(); ++t) enter(f, t);
     refine();
-  }
-
-  std::size_t triangle_count() const {
-    std::size_t count = 0;
-    for (const FacetTriangulation& facet : facets_) count += facet.triangulation().triangles.size();
-    return count;
   }
 
   /// Gives the vertices their ids: those in facets first.
@@ -425,54 +410,21 @@ class Refiner {
   std::vector<PlaceOfVertex> place_;  // of each
   std::vector<double> wanted_;        // length of edges at each
   EdgeMap segment_of_edge_;
-  const std::vector<LeastDistances>& least_distances_;  // by segment: of its vertices from its ends
+  std::vector<LeastDistances> least_distances_;  // by segment: of its vertices from its ends
   std::vector<std::vector<std::uint32_t>> facets_of_segment_;
   std::vector<FacetTriangulation> facets_;
   std::priority_queue<BadTriangle> queue_;
   std::vector<std::uint32_t> cavity_;  // working memory
 };
 
-/// The number of triangles that the surface would have without thin places.
-double count_even_triangles(const plc::Plc& plc, double edge_length) {
-  double count = 0;
-  for (const auto& [a, b, c] : plc.triangles) {
-    const Point3 twice_area = area_vector({plc.vertices[a], plc.vertices[b], plc.vertices[c]});
-    count += 1 + 2 / std::sqrt(3.0) * length(twice_area) / (edge_length * edge_length);
-  }
-  return count;
-}
-
-/// The next limit to try, between one that makes too many tetrahedra and one that makes too few (0: not known yet).
-double next_limit(double too_many, double too_few) {
-  constexpr double first_step = 4;
-  return too_many == 0 ? too_few / first_step : std::sqrt(too_many * too_few);
-}
-
 }  // namespace
 
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress) {
-  const std::vector<sizes::SizedPlace> places =
-      sizes::find_thin_places(plc, options.edge_length, excess_of_estimate * options.most_tetrahedra);
-  const std::vector<LeastDistances> least_distances = find_close_segments(plc);
-  const double even_triangles = count_even_triangles(plc, options.edge_length);
-  double least = options.least_size, too_many = 0, too_few = 0;
-  for (int tries = options.least_size > 0 ? most_tries : 1;; ++tries) {
-    const sizes::SizeField field(options.edge_length, options.grading, sizes::limited_from_below(places, least));
-    Refiner refiner(plc, field, least_distances, progress);
-    refiner.run();
-    const double excess = tetrahedra_of_triangle * (static_cast<double>(refiner.triangle_count()) - even_triangles) /
-                          options.most_tetrahedra;
-    const bool is_near = excess <= most_excess && (least == 0 || excess >= least_excess);
-    const bool is_highest = least == options.edge_length;  // which leaves no thin place
-    if (is_near || is_highest || tries == most_tries) {
-      RefinedPlc result = std::move(refiner).take();
-      result.least_size = least;
-      return result;
-    }
-    (excess > most_excess ? too_many : too_few) = least;
-    least = too_few == 0 ? sizes::limit_for_share(places, 1 / excess, least, options.edge_length)
-                         : next_limit(too_many, too_few);
-  }
+  const sizes::SizeField field = sizes::find_thin_places(plc, options.edge_length, options.grading,
+                                                         options.most_tetrahedra / tetrahedra_of_triangle);
+  Refiner refiner(plc, field, progress);
+  refiner.run();
+  return std::move(refiner).take();
 }
 
 }  // namespace ccdt::refine

@@ -13,8 +13,6 @@ struct RefineOptions {
   double edge_length = 0;        ///< longest wanted edges, in grid units; must be positive
   double grading = 0.5;          ///< growth of the edge length per unit of distance from places where it is short
   double most_tetrahedra = 2e6;  ///< that thin places may lead to, approximately
-  /// No thin place gets a shorter edge length than this; in grid units. 0: `most_tetrahedra` decides.
-  double least_size = 0;
 };
 
 /// A PLC with more vertices and the same geometry.
@@ -22,7 +20,6 @@ struct RefinedPlc {
   plc::Plc plc;                      ///< the vertices that were added inside facets follow those of the input
   protection::SegmentChains chains;  ///< the vertices that were added inside segments
   std::vector<Point3> on_segments;   ///< these, in the order of their ids, which follow those of `plc`
-  double least_size = 0;             ///< the `least_size` that was used
 };
 
 /// Gives facets and segments new vertices, so that their triangles are well shaped and have edges of the wanted length,
@@ -33,9 +30,8 @@ struct RefinedPlc {
 /// of two steps in its plane (`plc::PlaneSteps`), so all are exactly in place. In a facet that is flat only within the
 /// tolerance, a vertex is exactly in the plane of one of its triangles.
 ///
-/// Where thin places would lead to more than `most_tetrahedra`, the surface is refined again with a lower limit of the
-/// edge lengths there. It terminates at all angles: no edge shorter than the length wanted there is halved, and no
-/// vertex is placed nearer to another one than a fraction of that length.
+/// It terminates at all angles: no edge shorter than the length wanted there is halved, and no vertex is placed nearer
+/// to another one than a fraction of that length.
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress = {});
 
 }  // namespace ccdt::refine

@@ -94,7 +94,7 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
   return least;
 }
 
-InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(background) {
+InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(&background) {
   std::vector<SizedPlace> tetrahedra, vertices;
   for (std::uint32_t t = 0; t < background.tetrahedra.size(); ++t) {
     const auto& v = background.tetrahedra[t];
@@ -116,9 +116,9 @@ double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) co
   std::array<Point3, 4> corners;
   std::array<double, 4> sizes;
   for (unsigned i = 0; i < 4; ++i) {
-    const std::uint32_t v = background_.tetrahedra[tetrahedron][i];
-    corners[i] = background_.vertices[v];
-    sizes[i] = background_.sizes[v];
+    const std::uint32_t v = background_->tetrahedra[tetrahedron][i];
+    corners[i] = background_->vertices[v];
+    sizes[i] = background_->sizes[v];
   }
   return least_value(corners, sizes, box);
 }

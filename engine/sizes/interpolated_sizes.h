@@ -23,7 +23,7 @@ class InterpolatedSizes {
   double least_in(const Box& box, std::uint32_t tetrahedron) const;
   bool is_below_outside(const Box& box, double bound) const;
 
-  const BackgroundSizes& background_;
+  const BackgroundSizes* background_;
   SizeTree tetrahedra_, vertices_;
 };
 

@@ -8,41 +8,15 @@
 #include <utility>
 
 #include "engine/base/closest_on_segment.h"
-#include "engine/base/closest_on_triangle.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/sizes/budget.h"
+#include "engine/sizes/sample_cell.h"
+#include "engine/sizes/walls.h"
 
 namespace ccdt::sizes {
 
-/// The cube that a point is in, in a grid of one facet whose edges are the greatest power of two that is not above a
-/// size.
-struct SampleCell {
-  std::array<std::int64_t, 3> place;
-  std::int32_t exponent;
-  std::uint32_t facet;
-
-  bool operator==(const SampleCell&) const = default;
-};
-
-}  // namespace ccdt::sizes
-
-template <>
-struct ccdt::HashTraits<ccdt::sizes::SampleCell> {
-  static constexpr sizes::SampleCell none() { return {{}, 0, 0xFFFFFFFFu}; }
-  static std::size_t hash(const sizes::SampleCell& cell) {
-    std::uint64_t h = std::uint64_t{cell.facet} << 32 | static_cast<std::uint32_t>(cell.exponent);
-    for (const std::int64_t x : cell.place)
-      h = ((h ^ h >> 29) + static_cast<std::uint64_t>(x)) * std::uint64_t{0x9E3779B97F4A7C15};
-    return h >> 20;
-  }
-};
-
-namespace ccdt::sizes {
 namespace {
-
-using Triangle = std::array<Point3, 3>;
-
-constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 /// Edges may be this many times as long as a strip or a wall is wide.
 constexpr double of_strip = 1.3, of_wall = 1.2;
@@ -50,34 +24,9 @@ constexpr double of_strip = 1.3, of_wall = 1.2;
 /// The tried lengths are halved at most this many times.
 constexpr int most_halvings = 14;
 
-/// Thin places are covered by cubes whose edges double from the size of the place up to the largest length. Each cube
-/// leads to about this many tetrahedra: many at a segment or a strip, where the edges inside the domain are short too,
-/// but few at a wall, which has no inside.
-constexpr double of_strip_cube = 60, of_wall_cube = 2;
-
-/// At most this many pieces of walls are measured for one length. Two solids that nearly touch would need any number of
-/// them.
+/// At most this many pieces of strips, and of walls, are measured for one length. Two solids that nearly touch would
+/// need any number of them.
 constexpr std::size_t most_pieces = 200000;
-
-Point3 nearest_on_triangle(const Triangle& t, const Point3& p) {
-  const std::array weights = closest_on_triangle(p, t);
-  return t[0] + (weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0]));
-}
-
-/// The same triangle, with the longest edge between its first two corners.
-Triangle longest_edge_first(const Triangle& t) {
-  std::size_t longest = 0;
-  for (std::size_t i = 1; i < 3; ++i)
-    if (squared_length(t[(i + 1) % 3] - t[i]) > squared_length(t[(longest + 1) % 3] - t[longest])) longest = i;
-  return {t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]};
-}
-
-SampleCell cell_of(const Point3& p, double size, std::uint32_t facet) {
-  int exponent = 0;
-  std::frexp(size, &exponent);
-  const auto place = [&](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, 1 - exponent))); };
-  return {{place(p.x), place(p.y), place(p.z)}, exponent, facet};
-}
 
 // ---- Between two segments of a facet --------------------------------------------------------------------------------
 
@@ -98,7 +47,8 @@ class Strips {
     for (const Piece& piece : pieces) measure(piece, least, places);
   }
 
-  bool are_measured() const { return open_.empty(); }
+  /// The number of pieces that are not measured yet.
+  std::size_t open() const { return open_.size(); }
 
  private:
   /// An edge of a facet that belongs to a segment, or a vertex inside the facet.
@@ -205,188 +155,25 @@ class Strips {
   std::vector<Piece> open_;
 };
 
-// ---- Between two facets ---------------------------------------------------------------------------------------------
-
-/// Measures the domain over and under the facets, piece by piece: a piece of a triangle is halved if it is longer than
-/// the thickness of the domain there.
-class Walls {
- public:
-  Walls(const plc::Plc& plc, double largest)
-      : plc_(plc), largest_(largest), facets_of_vertex_(plc.vertices.size()), met_by_(plc.facets.size(), none) {
-    for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
-      for (const auto& t : plc.triangles_of(plc.facets[f])) {
-        const Triangle corners = {plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]]};
-        take_pieces(corners, f);
-        open_.push_back({corners, f, {none, none}});
-        for (const VertexId v : t)
-          if (facets_of_vertex_[v].empty() || facets_of_vertex_[v].back() != f) facets_of_vertex_[v].push_back(f);
-      }
-    }
-    std::vector<SizedPlace> items;
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) items.push_back({bounding_box(triangles_[i].corners), 0, i});
-    tree_ = SizeTree(items);
-  }
-
-  /// Measures the pieces that are longer than a length, which decreases from call to call.
-  void measure(double least, std::vector<SizedPlace>& places) {
-    const std::vector<Piece> pieces = std::exchange(open_, {});
-    for (const Piece& piece : pieces) {
-      if (met_by_[piece.facet] != piece.facet) mark_facets_around(piece.facet);
-      measure(piece, least, places);
-    }
-    met_by_.assign(met_by_.size(), none);
-  }
-
-  /// The number of pieces that are not measured yet.
-  std::size_t open() const { return open_.size(); }
-
- private:
-  struct FacetTriangle {
-    Triangle corners;
-    std::uint32_t facet;
-  };
-  using Sides = std::array<std::uint32_t, 2>;
-  struct Piece {
-    Triangle corners;
-    std::uint32_t facet;
-    Sides near;  ///< triangles that may be near, over and under it
-  };
-  struct Sample {
-    double width;
-    Sides near;
-  };
-
-  /// Cuts a triangle into pieces that are not longer than the longest wanted edges, so that their boxes are small.
-  void take_pieces(const Triangle& t, std::uint32_t facet) {
-    const auto [a, b, c] = longest_edge_first(t);
-    if (length(b - a) <= largest_) {
-      triangles_.push_back({t, facet});
-      return;
-    }
-    const Point3 middle = 0.5 * (a + b);
-    take_pieces({a, middle, c}, facet);
-    take_pieces({middle, b, c}, facet);
-  }
-
-  void mark_facets_around(std::uint32_t facet) {
-    for (const auto& t : plc_.triangles_of(plc_.facets[facet]))
-      for (const VertexId v : t)
-        for (const std::uint32_t g : facets_of_vertex_[v]) met_by_[g] = facet;
-  }
-
-  void measure(Piece piece, double least, std::vector<SizedPlace>& places) {
-    const auto [a, b, c] = longest_edge_first(piece.corners);
-    const double size = length(b - a);
-    if (size <= least) {
-      open_.push_back(piece);
-      return;
-    }
-    const Point3 center = (1.0 / 3) * (a + b + c);
-    // Adjacent needles share one sample.
-    const auto [sample, is_new] = known_.insert(cell_of(center, size, piece.facet), {});
-    if (is_new) {
-      *sample = sample_at(center, piece);
-      if (of_wall * sample->width < largest_) places.push_back({box_of(center), of_wall * sample->width});
-    }
-    if (size <= sample->width) return;
-    piece.near = sample->near;
-    const Point3 middle = 0.5 * (a + b);
-    piece.corners = {a, middle, c};
-    measure(piece, least, places);
-    piece.corners = {middle, b, c};
-    measure(piece, least, places);
-  }
-
-  Sample sample_at(const Point3& p, const Piece& piece) const {
-    Sample sample{largest_ / of_wall, piece.near};
-    const plc::Facet& facet = plc_.facets[piece.facet];
-    const Point3 normal = normalized(area_vector(piece.corners));
-    if (plc_.regions[facet.above].inside) look(piece.facet, normal, p, sample.near[0], sample.width);
-    if (plc_.regions[facet.below].inside) look(piece.facet, -1 * normal, p, sample.near[1], sample.width);
-    return sample;
-  }
-
-  /// Looks from a point of a facet, up to 60 degrees away from a direction, for the nearest triangle of a facet that
-  /// this one does not meet. If that is nearer than `width`, stores its number and distance.
-  void look(std::uint32_t facet, const Point3& direction, const Point3& p, std::uint32_t& near, double& width) const {
-    const auto try_triangle = [&](std::uint32_t number) {
-      const FacetTriangle& t = triangles_[number];
-      if (met_by_[t.facet] == facet) return;
-      const Point3 across = nearest_on_triangle(t.corners, p) - p;
-      const double found = length(across);
-      if (found >= width || dot(across, direction) <= 0.5 * found) return;
-      width = found;
-      near = number;
-    };
-    if (near != none) try_triangle(near);
-    const auto distance = [&](const Box& box, double) {
-      const double height = dot(componentwise_max(direction, {}), box.high - p) +
-                            dot(componentwise_min(direction, {}), box.low - p);  // of its highest corner
-      const double least = std::sqrt(squared_distance(box, p));
-      return height > 0 && least < 2 * height ? least : HUGE_VAL;
-    };
-    tree_.any(width, distance, [&](const SizedPlace& item) {
-      try_triangle(item.number);
-      return false;
-    });
-  }
-
-  const plc::Plc& plc_;
-  const double largest_;
-  std::vector<std::vector<std::uint32_t>> facets_of_vertex_;
-  std::vector<std::uint32_t> met_by_;  // by facet: the last facet that searched and shares a vertex with it
-  std::vector<FacetTriangle> triangles_;
-  SizeTree tree_;
-  HashTable<SampleCell, Sample> known_;
-  std::vector<Piece> open_;
-};
-
-// ---- All ------------------------------------------------------------------------------------------------------------
-
-/// The number of cubes of a grid that have a place whose size is below twice their edge.
-std::size_t count_cubes(const std::vector<SizedPlace>& places, double edge) {
-  HashSet<SampleCell> cubes;
-  for (const SizedPlace& p : places)
-    if (p.size < 2 * edge)
-      cubes.insert({{static_cast<std::int64_t>(std::floor(p.box.low.x / edge)),
-                     static_cast<std::int64_t>(std::floor(p.box.low.y / edge)),
-                     static_cast<std::int64_t>(std::floor(p.box.low.z / edge))},
-                    0,
-                    0});
-  return cubes.size();
-}
-
-/// Both ends and the middle of each segment that is shorter than a length.
-std::vector<SizedPlace> find_short_segments(const plc::Plc& plc, double largest) {
-  std::vector<SizedPlace> places;
-  for (const plc::Segment& s : plc.segments) {
-    const Point3 &a = plc.vertices[s.ends[0]], &b = plc.vertices[s.ends[1]];
-    const double size = length(b - a);
-    if (size < largest)
-      for (const double t : {0.0, 0.5, 1.0}) places.push_back({box_of(a + t * (b - a)), size});
-  }
-  return places;
-}
-
-std::vector<SizedPlace> joined(std::vector<SizedPlace> places, const std::vector<SizedPlace>& more) {
-  places.insert(places.end(), more.begin(), more.end());
-  return places;
+/// Both ends and the middle of a segment that is shorter than a length.
+void add_short_segment(const Point3& a, const Point3& b, double largest, std::vector<SizedPlace>& places) {
+  const double size = length(b - a);
+  if (size < largest)
+    for (const double t : {0.0, 0.5, 1.0}) places.push_back({box_of(a + t * (b - a)), size});
 }
 
 void limit_from_below(std::vector<SizedPlace>& places, double least) {
   for (SizedPlace& p : places) p.size = std::max(p.size, least);
 }
 
-}  // namespace
-
-std::vector<SizedPlace> limited_from_below(std::vector<SizedPlace> places, double limit) {
-  limit_from_below(places, limit);
+/// Of places that have about the same size and are near each other relative to it, only the least.
+std::vector<SizedPlace> thinned(const std::vector<SizedPlace>& places) {
   constexpr double nearness = 0.25;
   HashTable<SampleCell, std::uint32_t> number_of_cell;
   std::vector<SizedPlace> least;
   for (const SizedPlace& place : places) {
-    const auto [number, is_new] = number_of_cell.insert(cell_of(place.box.low, nearness * place.size, 0),
-                                                        static_cast<std::uint32_t>(least.size()));
+    const auto [number, is_new] =
+        number_of_cell.insert(cell_of(place.box.low, nearness * place.size), static_cast<std::uint32_t>(least.size()));
     if (is_new)
       least.push_back(place);
     else if (place.size < least[*number].size)
@@ -395,50 +182,44 @@ std::vector<SizedPlace> limited_from_below(std::vector<SizedPlace> places, doubl
   return least;
 }
 
-double limit_for_share(std::span<const SizedPlace> places, double share, double least, double largest) {
-  // In a plane, edges of length l instead of s leave (s / l)^2 of the vertices.
-  const auto left = [&](double limit) {
-    double sum = 0;
-    for (const SizedPlace& place : places) sum += std::min(1.0, place.size * place.size / (limit * limit));
-    return sum;
+/// All places, with those that are too thin to be measured as if they were just thick enough.
+std::vector<SizedPlace> measure_thin_places(const plc::Plc& plc, double largest) {
+  std::vector<SizedPlace> places;
+  Strips strips(plc, largest);
+  WallRules rules{largest, {}};
+  for (const plc::Facet& f : plc.facets)
+    rules.ratios.push_back({plc.regions[f.above].inside ? of_wall : 0, plc.regions[f.below].inside ? of_wall : 0});
+  Walls walls(plc, std::move(rules));
+  double least = largest;
+  const auto may_measure = [&] {
+    return strips.open() + walls.open() > 0 && std::max(strips.open(), walls.open()) <= most_pieces;
   };
-  const double most = share * left(least);
-  double low = least, limit = largest;
-  for (int i = 0; i < 20; ++i) {
-    const double middle = 0.5 * (low + limit);
-    (left(middle) > most ? low : limit) = middle;
+  for (int i = 0; i < most_halvings && may_measure(); ++i) {
+    least /= 2;
+    strips.measure(least, places);
+    walls.measure(least, places);
   }
-  return limit;
+  limit_from_below(places, least);
+  for (const plc::Segment& s : plc.segments)
+    add_short_segment(plc.vertices[s.ends[0]], plc.vertices[s.ends[1]], largest, places);
+  return places;
 }
 
-std::vector<SizedPlace> find_thin_places(const plc::Plc& plc, double largest, double most_tetrahedra) {
-  std::vector<SizedPlace> of_segments = find_short_segments(plc, largest), of_strips, of_walls;
-  Strips strips(plc, largest);
-  Walls walls(plc, largest);
-  double least = largest, least_measured = largest, least_affordable = 0, tetrahedra = 0;
-  const auto may_measure = [&] { return (!strips.are_measured() || walls.open() != 0) && walls.open() <= most_pieces; };
-  const auto are_shorter = [&] {
-    return std::ranges::any_of(of_segments, [&](const SizedPlace& p) { return p.size < least; });
+}  // namespace
+
+SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, double most_triangles) {
+  const std::vector<SizedPlace> places = measure_thin_places(plc, largest);
+  const auto field_of = [&](double least) {
+    std::vector<SizedPlace> limited = places;
+    limit_from_below(limited, least);
+    return SizeField(largest, grading, thinned(limited));
   };
-  for (int i = 0; i < most_halvings && (may_measure() || are_shorter()); ++i) {
-    const bool measures = may_measure();
-    if (measures) {
-      strips.measure(least / 2, of_strips);
-      walls.measure(least / 2, of_walls);
-    }
-    tetrahedra += of_strip_cube * count_cubes(joined(of_strips, of_segments), least / 2) +
-                  of_wall_cube * count_cubes(of_walls, least / 2);
-    if (tetrahedra > most_tetrahedra) {
-      least_affordable = least;
-      break;
-    }
-    least /= 2;
-    if (measures) least_measured = least;
-  }
-  limit_from_below(of_strips, least_measured);
-  limit_from_below(of_walls, least_measured);
-  limit_from_below(of_segments, least_affordable);
-  return joined(joined(std::move(of_strips), of_walls), of_segments);
+  const double even = count_triangles(plc, SizeField(largest, grading, {}));
+  const double most = even + std::min(most_triangles, affordable_triangles(even));
+  const auto is_affordable = [&](double least) { return count_triangles(plc, field_of(least), most) <= most; };
+  double shortest = largest;
+  for (const SizedPlace& place : places) shortest = std::min(shortest, place.size);
+  return field_of(least_affordable(shortest, largest, is_affordable));
 }
 
 }  // namespace ccdt::sizes

@@ -325,7 +325,7 @@ ClosestPoint::ClosestPoint(const OriginalSurface& surface) : surface_(surface), 
 
 void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
   Box box = empty_box;
-  for (std::uint32_t i = begin; i < end; ++i) box = hull(box, bounding_box(corners(items_[i])));
+  for (std::uint32_t i = begin; i < end; ++i) box = hull(box, bounding_box(surface_.corners(items_[i])));
   constexpr std::uint32_t leaf_size = 4;
   nodes_[node] = {box, begin, end - begin};
   if (end - begin <= leaf_size) {
@@ -335,7 +335,7 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   }
   const int axis = plc::dominant_axis(box.high - box.low);
   const auto key = [&](std::uint32_t t) {
-    const std::array<Point3, 3> c = corners(t);
+    const std::array<Point3, 3> c = surface_.corners(t);
     return as_array(c[0])[axis] + as_array(c[1])[axis] + as_array(c[2])[axis];
   };
   const std::uint32_t middle = begin + (end - begin) / 2;
@@ -352,13 +352,8 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   build(child + 1, middle, end);
 }
 
-std::array<Point3, 3> ClosestPoint::corners(std::uint32_t triangle) const {
-  const auto& [a, b, c] = surface_.triangles[triangle];
-  return {surface_.points[a], surface_.points[b], surface_.points[c]};
-}
-
 Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
-  Foot foot = closest_foot(p, corners(triangle));
+  Foot foot = closest_foot(p, surface_.corners(triangle));
   foot.triangle = triangle;
   return foot;
 }

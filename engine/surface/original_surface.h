@@ -50,6 +50,11 @@ struct OriginalSurface {
                                       ///< as that of a cone, where the surface has no normal
   std::vector<FeatureEdge> features;
   std::vector<char> is_listed_alone;  ///< by point: the input lists it, but no facet or segment uses it
+
+  std::array<Point3, 3> corners(std::uint32_t triangle) const {
+    const auto& [a, b, c] = triangles[triangle];
+    return {points[a], points[b], points[c]};
+  }
 };
 
 /// \param plc          of that input, built with the same flatness
@@ -86,7 +91,6 @@ class ClosestPoint {
   };
   Foot search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const;
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
-  std::array<Point3, 3> corners(std::uint32_t triangle) const;
   Foot foot_on(std::uint32_t triangle, const Point3& p) const;
 
   const OriginalSurface& surface_;

@@ -23,6 +23,8 @@ namespace ccdt::surface {
 
 namespace {
 
+using sizes::SizedPlace;
+
 // Rounds of splits, collapses, flips and relaxation.
 constexpr int rounds_of_all = 8, rounds_near_places = 3;
 
@@ -30,6 +32,9 @@ constexpr int rounds_of_all = 8, rounds_near_places = 3;
 // neighborhood.
 constexpr int most_halvings = 8;
 constexpr int most_attempts = 9;
+
+// Edges are halved within this many edge lengths of the place where triangles cross.
+constexpr double halved_around = 1.6;
 
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   const Place place{.file = input.name};
@@ -203,12 +208,6 @@ Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const 
   return defects;
 }
 
-/// A place and the edge length there.
-struct SizedPlace {
-  Point3 point;
-  double edge;
-};
-
 /// Merges places near each other into one, with the longest edge of the triangles there.
 std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface, double usual) {
   const auto corners = [&](std::uint32_t t) {
@@ -227,8 +226,8 @@ std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::In
       for (int k = 0; k < 3; ++k) edge = std::max(edge, length(c[(k + 1) % 3] - c[k]));
     });
     edge = edge > 0 ? std::min(edge, usual) : usual;
-    if (std::none_of(kept.begin(), kept.end(), [&](const SizedPlace& q) { return length(p - q.point) < q.edge; }))
-      kept.push_back({p, edge});
+    if (std::none_of(kept.begin(), kept.end(), [&](const SizedPlace& q) { return length(p - q.box.low) < q.size; }))
+      kept.push_back({box_of(p), edge});
   }
   return kept;
 }
@@ -236,7 +235,7 @@ std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::In
 void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& places, double edges_around,
             std::vector<char>& frozen) {
   RawVector<Box> boxes;
-  for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
+  for (const SizedPlace& p : places) boxes.push_back(expanded(p.box, edges_around * p.size));
   const BoxTree tree(std::move(boxes));
   for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
     const auto [a, b, c] = original.triangles[t];
@@ -256,7 +255,7 @@ void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& plac
 void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Progress& progress) {
   constexpr double edges_around = 6;
   RawVector<Box> boxes;
-  for (const SizedPlace& p : places) boxes.push_back(expanded(box_of(p.point), edges_around * p.edge));
+  for (const SizedPlace& p : places) boxes.push_back(expanded(p.box, edges_around * p.size));
   const BoxTree tree(std::move(boxes));
   const std::vector<char> frozen_faces = m.face_is_frozen;
   const std::vector<WorkingMesh::Vertex> vertices = m.vertices;
@@ -273,24 +272,18 @@ void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Pr
   for (std::size_t v = 0; v < vertices.size(); ++v) m.vertices[v].is_frozen = vertices[v].is_frozen;
 }
 
-void halve_lengths(const std::vector<SizedPlace>& places, EdgeLengths& lengths) {
-  std::vector<EdgeLengths::Ball> balls;
-  for (const SizedPlace& p : places) balls.push_back({p.point, 2 * p.edge, 0.5 * p.edge});
-  lengths.limit(balls);
-}
-
 plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
   check_options(input, options);
   const plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
-  const CurveLengths curve_lengths(features, options.edge_length);
-  const Thickness thickness(original, options.edge_length);
-  EdgeLengths lengths(options.edge_length);
+  const sizes::SizeField shape = lengths_of_shape(plc, original, features, options.edge_length);
+  std::vector<SizedPlace> halved;
+  sizes::SizeField lengths(options.edge_length, length_growth, halved);
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
-    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, curve_lengths, thickness, frozen);
+    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, shape, frozen);
     remesh(mesh, rounds_of_all, progress);
     for (int halving = 0;; ++halving) {
       note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
@@ -303,7 +296,8 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
         freeze(original, places, std::ldexp(1, attempt), frozen);
         break;
       }
-      halve_lengths(places, lengths);
+      for (const SizedPlace& p : places) halved.push_back({expanded(p.box, halved_around * p.size), 0.5 * p.size});
+      lengths = sizes::SizeField(options.edge_length, length_growth, halved);
       remesh_near(mesh, places, progress);
     }
   }

@@ -29,10 +29,10 @@ struct RemeshOptions {
 /// No triangle is turned over or made worse than a limit. Edges are shorter where features are short or near each
 /// other, where the surface is curved, and where another sheet is opposite, through the solid or a gap. They grow
 /// gently from there, so that neither needles nor flat tetrahedra are needed. All these short edges cost at most about
-/// 40,000 triangles more than the given edge length would; beyond that, the shortest become longer. At the end, the
-/// worst triangles are improved one by one: angles below 30 degrees remain only at sharp corners and where the surface
-/// is rough. If triangles of the result still cross, the edges there become shorter. If that does not help, the old
-/// triangles stay there. The result always builds (`build_plc`).
+/// four times the triangles of the given edge length, or 10,000 if these are few; beyond that, the shortest become
+/// longer. At the end, the worst triangles are improved one by one: angles below 30 degrees remain only at sharp
+/// corners and where the surface is rough. If triangles of the result still cross, the edges there become shorter. If
+/// that does not help, the old triangles stay there. The result always builds (`build_plc`).
 ///
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is not a valid PLC, or an option is out of range

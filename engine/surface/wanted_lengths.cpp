@@ -4,16 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
-#include <queue>
-#include <utility>
+#include <vector>
 
+#include "engine/sizes/budget.h"
+#include "engine/sizes/walls.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
 namespace {
 
-constexpr double step = 0.9;  // from one tried length to the next
+constexpr double shortening = 0.9;  // from one tried length to the next
 
 // The longest edge at a point of a curve that stays near to it. An edge as long as a piece of the chain is always
 // allowed: each bend may get a vertex.
@@ -23,7 +23,7 @@ double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
   const double after = i + 1 < curve.arc.size() ? curve.arc[i + 1] - curve.arc[i] : 0;
   const double least = std::max(before, after);
   double edge = std::min(usual, whole);
-  for (; edge > least; edge *= step) {
+  for (; edge > least; edge *= shortening) {
     const double from = std::clamp(curve.arc[i] - 0.5 * edge, 0.0, whole - edge);
     if (curve.deviation(from, from + edge) <= most_deviation * edge) break;
   }
@@ -34,11 +34,13 @@ constexpr double most_ratio = 2;       // of the wanted length to the shortest e
 constexpr double most_turn = 0.42;     // radians, of the normals along an edge
 constexpr double width_ratio = 1.15;   // of edges along a strip to its width: equilateral triangles fill it
 constexpr double least_width = 0.002;  // of the usual length: narrower strips fit no allowed edge
+constexpr double least_wall = 0.01;    // of the usual length: no reasonable number of edges fits thinner walls
 constexpr double narrow_wedge = 0.5;   // its width over the distance from its tip
 
 // None of these makes edges shorter than this fraction of the usual length: slits may be arbitrarily narrow, and noise
 // has bends too.
-constexpr double least_by_curve = 0.02, least_by_width = 0.05, least_by_edge = 0.2, least_by_turn = 0.3;
+constexpr double least_by_curve = 0.02, least_by_width = 0.05, least_by_wall = 0.15, least_by_edge = 0.2,
+                 least_by_turn = 0.3;
 
 double& wanted_at(WorkingMesh& m, VertexHandle v) {
   return m.at(v).knot == none ? m.at(v).wanted : m.knots[m.at(v).knot].wanted;
@@ -46,20 +48,6 @@ double& wanted_at(WorkingMesh& m, VertexHandle v) {
 
 void limit(double& wanted, double most, double least) {
   wanted = std::min(wanted, std::max(most, least));
-}
-
-void limit_from_below(double& wanted, double least) {
-  wanted = std::max(wanted, least);
-}
-
-void limit_by_curves(WorkingMesh& m) {
-  for (const WorkingMesh::Link& link : m.links) {
-    if (!link.is_alive) continue;
-    for (int i = 0; i < 2; ++i) {
-      WorkingMesh::Knot& k = m.knots[link.ends[i]];
-      limit(k.wanted, m.curve_lengths.at(link.curve, link.arc[i]), least_by_curve * m.lengths.at(k.position));
-    }
-  }
 }
 
 void limit_by_edges(WorkingMesh& m) {
@@ -117,24 +105,6 @@ void limit_by_width(WorkingMesh& m) {
   }
 }
 
-void limit_by_thickness(WorkingMesh& m) {
-  for (const FaceHandle f : m.mesh.faces()) {
-    if (m.is_frozen(f)) continue;
-    const std::array<VertexHandle, 3> corners = m.corners(m.mesh.halfedge_handle(f));
-    const double now = std::max({wanted_at(m, corners[0]), wanted_at(m, corners[1]), wanted_at(m, corners[2])});
-    if (now <= m.thickness.least_wanted()) continue;
-    const WorkingMesh::Vertex& first = m.at(corners[0]);
-    const std::array<Point3, 3> p = m.points(corners);
-    const Foot foot = m.closest.on_patch(first.patch, (1.0 / 3) * (p[0] + p[1] + p[2]), first.near);
-    const double most = m.thickness.wanted_at(foot, now);
-    for (const VertexHandle v : corners) limit(wanted_at(m, v), most, 0);
-  }
-}
-
-/// Short edges at features may cost this many triangles, which lead to about a million tetrahedra. If they would cost
-/// more, the shortest become longer.
-constexpr double most_triangles_at_features = 40000;
-
 /// The number of equilateral triangles of the wanted lengths, if none was below `least` except where the given length
 /// is.
 double count_triangles(const WorkingMesh& m, double least) {
@@ -150,85 +120,67 @@ double count_triangles(const WorkingMesh& m, double least) {
 
 /// Makes the shortest wanted lengths longer until features cost no more triangles than they may.
 void limit_count(WorkingMesh& m) {
-  const double usual = m.lengths.usual();
-  const double most = count_triangles(m, usual) + most_triangles_at_features;
-  if (count_triangles(m, 0) <= most) return;
-  double low = 0, least = usual;
-  for (int i = 0; i < 10; ++i) {
-    const double middle = 0.5 * (low + least);
-    (count_triangles(m, middle) > most ? low : least) = middle;
+  const double usual = m.lengths.largest();
+  const double even = count_triangles(m, usual), most = even + sizes::affordable_triangles(even);
+  double shortest = usual;
+  for (const VertexHandle v : m.mesh.vertices()) shortest = std::min(shortest, m.at(v).wanted);
+  const double least =
+      sizes::least_affordable(shortest, usual, [&](double limit) { return count_triangles(m, limit) <= most; });
+  const auto raise = [&](double& wanted, const Point3& p) {
+    wanted = std::max(wanted, std::min(least, m.lengths.at(p)));
+  };
+  for (const VertexHandle v : m.mesh.vertices()) raise(m.at(v).wanted, m.point(v));
+  for (WorkingMesh::Knot& k : m.knots) raise(k.wanted, k.position);
+}
+
+/// The places where a solid, or a gap between bent sheets, is thin.
+std::vector<sizes::SizedPlace> find_walls(const plc::Plc& plc, const OriginalSurface& surface, double usual) {
+  // Edges at a gap are chords and must not cross.
+  constexpr double of_solid = 2, of_gap = 4;
+  // A wedge that opens faster than edges may grow (`length_growth`) is not a thin place: the sine of that slope's angle
+  // is 0.287.
+  constexpr double least_cosine = 0.958;
+  const double unit = plc.grid.unit;
+  std::vector<bool> is_bent(plc.facets.size());
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    is_bent[surface.facet_of[t]] = surface.patch_is_flat[surface.patch_of[t]] == 0;
+  sizes::WallRules rules{usual / unit, {}, least_by_wall * usual / unit, least_wall * usual / unit, least_cosine};
+  for (std::size_t f = 0; f < plc.facets.size(); ++f) {
+    const auto ratio = [&](RegionId beside) { return plc.regions[beside].inside ? of_solid : is_bent[f] ? of_gap : 0; };
+    rules.ratios.push_back({ratio(plc.facets[f].above), ratio(plc.facets[f].below)});
   }
-  for (const VertexHandle v : m.mesh.vertices())
-    limit_from_below(m.at(v).wanted, std::min(least, m.lengths.at(m.point(v))));
-  for (WorkingMesh::Knot& k : m.knots) limit_from_below(k.wanted, std::min(least, m.lengths.at(k.position)));
+  sizes::Walls walls(plc, std::move(rules));
+  std::vector<sizes::SizedPlace> places;
+  walls.measure(0, places);
+  for (sizes::SizedPlace& p : places) p = {box_of(plc.grid.to_world(p.box.low)), unit * p.size};
+  return places;
 }
 
 }  // namespace
 
-double EdgeLengths::at(const Point3& p) const {
-  double wanted = usual_;
-  reaches_.for_each_meeting(box_of(p), [&](std::uint32_t i) {
-    const Ball& ball = balls_[i];
-    wanted = std::min(wanted, ball.wanted + length_growth * std::max(0.0, length(p - ball.center) - ball.radius));
-  });
-  return wanted;
+sizes::SizeField lengths_of_shape(const plc::Plc& plc, const OriginalSurface& surface, const FeatureCurves& features,
+                                  double usual) {
+  std::vector<sizes::SizedPlace> places = find_walls(plc, surface, usual);
+  for (const FeatureCurve& curve : features.curves)
+    for (std::size_t i = 0; i < curve.points.size(); ++i)
+      places.push_back({box_of(curve.points[i]), std::max(length_at(curve, i, usual), least_by_curve * usual)});
+  return {usual, length_growth, places};
 }
 
-void EdgeLengths::limit(const std::vector<Ball>& balls) {
-  balls_.insert(balls_.end(), balls.begin(), balls.end());
-  RawVector<Box> reaches;
-  for (const Ball& ball : balls_)
-    reaches.push_back(expanded(box_of(ball.center), ball.radius + std::max(0.0, usual_ - ball.wanted) / length_growth));
-  reaches_ = BoxTree(std::move(reaches));
-}
-
-CurveLengths::CurveLengths(const FeatureCurves& features, double usual) : features_(features) {
-  for (const FeatureCurve& curve : features.curves) {
-    std::vector<double>& lengths = lengths_.emplace_back();
-    for (std::size_t i = 0; i < curve.points.size(); ++i) lengths.push_back(length_at(curve, i, usual));
-    for (std::size_t i = 1; i < lengths.size(); ++i)
-      lengths[i] = std::min(lengths[i], lengths[i - 1] + length_growth * (curve.arc[i] - curve.arc[i - 1]));
-    for (std::size_t i = lengths.size() - 1; i-- > 0;)
-      lengths[i] = std::min(lengths[i], lengths[i + 1] + length_growth * (curve.arc[i + 1] - curve.arc[i]));
-  }
-}
-
-double CurveLengths::at(std::uint32_t curve, double arc) const {
-  const std::vector<double>& arcs = features_.curves[curve].arc;
-  const auto after = std::upper_bound(arcs.begin() + 1, arcs.end() - 1, arc);
-  const auto i = static_cast<std::size_t>(after - arcs.begin());
-  const std::vector<double>& lengths = lengths_[curve];
-  return std::min(lengths[i - 1] + length_growth * (arc - arcs[i - 1]), lengths[i] + length_growth * (arcs[i] - arc));
-}
-
-// The lengths spread from the smallest ones by Dijkstra's algorithm.
 void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
-  for (WorkingMesh::Knot& k : m.knots) k.wanted = m.lengths.at(k.position);
-  for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = m.lengths.at(m.point(v));
-  limit_by_curves(m);
+  const auto wanted_by_shape = [&](const Point3& p) { return m.shape.at(p, m.lengths.at(p)); };
+  for (WorkingMesh::Knot& k : m.knots) k.wanted = wanted_by_shape(k.position);
+  for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_by_shape(m.point(v));
   if (is_remeshed) {
     limit_by_edges(m);
     limit_by_width(m);
-    limit_by_thickness(m);
-  }
-  using Entry = std::pair<double, int>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (const VertexHandle v : m.mesh.vertices())
-    if (wanted_at(m, v) < m.lengths.at(m.point(v))) queue.emplace(wanted_at(m, v), v.idx());
-  while (!queue.empty()) {
-    const auto [wanted, index] = queue.top();
-    queue.pop();
-    const VertexHandle v(index);
-    if (wanted > wanted_at(m, v)) continue;
-    for (auto n = m.mesh.cvv_iter(v); n.is_valid(); ++n) {
-      const double most = wanted + length_growth * m.edge_length(v, *n);
-      if (most >= wanted_at(m, *n)) continue;
-      wanted_at(m, *n) = most;
-      if (m.at(*n).knot == none)
-        queue.emplace(most, (*n).idx());
-      else
-        for (const VertexHandle copy : m.knots[m.at(*n).knot].copies) queue.emplace(most, copy.idx());
-    }
+    // From there, the lengths grow.
+    std::vector<sizes::SizedPlace> places;
+    for (const VertexHandle v : m.mesh.vertices())
+      if (wanted_at(m, v) < m.lengths.largest()) places.push_back({box_of(m.point(v)), wanted_at(m, v)});
+    const sizes::SizeField field(m.lengths.largest(), length_growth, places);
+    for (WorkingMesh::Knot& k : m.knots) k.wanted = field.at(k.position, k.wanted);
+    for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = field.at(m.point(v), m.at(v).wanted);
   }
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
   limit_count(m);

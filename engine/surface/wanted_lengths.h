@@ -1,11 +1,8 @@
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "engine/base/box_tree.h"
-#include "engine/base/point.h"
+#include "engine/sizes/size_field.h"
 #include "engine/surface/feature_curves.h"
+#include "engine/surface/original_surface.h"
 
 namespace ccdt::surface {
 
@@ -19,40 +16,13 @@ inline constexpr double most_deviation = 0.044;
 /// The same for the edges that improve bad triangles: a circle keeps fifteen edges.
 inline constexpr double most_deviation_of_improved = 0.055;
 
-/// The wanted edge length at each place: that of the options, except in some balls, where it is less. Around these it
-/// grows gently.
-class EdgeLengths {
- public:
-  struct Ball {
-    Point3 center;
-    double radius, wanted;
-  };
-
-  explicit EdgeLengths(double usual) : usual_(usual), reaches_({}) {}
-
-  double usual() const { return usual_; }
-  double at(const Point3& p) const;
-
-  void limit(const std::vector<Ball>& balls);
-
- private:
-  double usual_;
-  std::vector<Ball> balls_;
-  BoxTree reaches_;  // of the balls that need less than the usual length
-};
-
-/// The longest edges that feature curves allow: short curves between corners stay single edges, and a bent curve needs
-/// edges that stay near it (`most_deviation`).
-class CurveLengths {
- public:
-  /// \param usual  the edge length wanted where the curve does not need less
-  CurveLengths(const FeatureCurves& features, double usual);
-
-  double at(std::uint32_t curve, double arc) const;
-
- private:
-  const FeatureCurves& features_;
-  std::vector<std::vector<double>> lengths_;  // by curve, at each of its points
-};
+/// The edge lengths that the shape of a surface allows: short curves between corners stay single edges, bent curves
+/// need edges that stay near them (`most_deviation`), and edges fit the thickness of solids and of gaps between bent
+/// sheets.
+///
+/// \param plc    of which the surface was cut
+/// \param usual  the edge length wanted where the shape does not need less
+sizes::SizeField lengths_of_shape(const plc::Plc& plc, const OriginalSurface& surface, const FeatureCurves& features,
+                                  double usual);
 
 }  // namespace ccdt::surface

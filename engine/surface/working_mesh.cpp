@@ -65,10 +65,9 @@ void add_faces(WorkingMesh& m, const std::vector<char>& frozen) {
 }  // namespace
 
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
-                              const ClosestPoint& closest, const EdgeLengths& lengths,
-                              const CurveLengths& curve_lengths, const Thickness& thickness,
-                              const std::vector<char>& frozen) {
-  WorkingMesh m{original, features, closest, lengths, curve_lengths, thickness, {}, {}, {}, {}, {}};
+                              const ClosestPoint& closest, const sizes::SizeField& lengths,
+                              const sizes::SizeField& shape, const std::vector<char>& frozen) {
+  WorkingMesh m{original, features, closest, lengths, shape, {}, {}, {}, {}, {}};
   const std::vector<std::uint32_t> knot_of = add_knots(m);
   add_links(m, knot_of);
   add_vertices(m, knot_of);

@@ -13,7 +13,6 @@
 #include "engine/base/portable_math.h"
 #include "engine/surface/feature_curves.h"
 #include "engine/surface/original_surface.h"
-#include "engine/surface/thickness.h"
 #include "engine/surface/wanted_lengths.h"
 
 namespace ccdt::surface {
@@ -141,9 +140,8 @@ struct WorkingMesh {
   const OriginalSurface& original;
   const FeatureCurves& features;
   const ClosestPoint& closest;
-  const EdgeLengths& lengths;
-  const CurveLengths& curve_lengths;
-  const Thickness& thickness;
+  const sizes::SizeField& lengths;  ///< the length of the options, except where triangles have crossed
+  const sizes::SizeField& shape;    ///< `lengths_of_shape`
 
   HalfedgeMesh mesh;
   std::vector<Vertex> vertices;      ///< by the index of the mesh's
@@ -186,9 +184,8 @@ struct WorkingMesh {
 
 /// \param frozen  by triangle of the original surface: must stay as it is
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
-                              const ClosestPoint& closest, const EdgeLengths& lengths,
-                              const CurveLengths& curve_lengths, const Thickness& thickness,
-                              const std::vector<char>& frozen);
+                              const ClosestPoint& closest, const sizes::SizeField& lengths,
+                              const sizes::SizeField& shape, const std::vector<char>& frozen);
 
 /// A new vertex of the halfedge mesh in a patch, at the foot of the given point or, on a knot, at its position.
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);
@@ -238,11 +235,11 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
 /// limit, or merge two edges.
 /// @{
 
-/// Gives every vertex and knot the wanted edge length (`EdgeLengths`), but less around edges that are much shorter and
-/// could not be collapsed, because the surface is too narrow or too strongly curved there: long edges beside them would
-/// turn the triangles into needles. Short edges at features cost a limited number of triangles.
+/// Gives every vertex and knot the wanted edge length (`lengths` and `shape`), but less around edges that are much
+/// shorter and could not be collapsed, because the surface is too narrow or too strongly curved there: long edges
+/// beside them would turn the triangles into needles. Short edges at features cost a limited number of triangles.
 ///
-/// \param is_remeshed  false for the original mesh: its short edges, narrow strips and thin places do not count yet
+/// \param is_remeshed  false for the original mesh: its short edges and narrow strips do not count yet
 void find_wanted_lengths(WorkingMesh& m, bool is_remeshed);
 
 /// Splits edges longer than 4/3 of the wanted length, until there are none; new vertices lie on the original surface.

@@ -8,14 +8,13 @@
 #include <vector>
 
 #include "engine/base/count_work.h"
+#include "engine/base/errors.h"
 #include "engine/base/portable_math.h"
 #include "engine/base/union_find.h"
 #include "engine/numbers/predicates.h"
 #include "engine/refine/close_segments.h"
 #include "engine/refine/refine_plc.h"
 #include "engine/refine/segment_fans.h"
-#include "engine/sizes/size_field.h"
-#include "engine/sizes/thin_places.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"
 #include "engine/tests/sanitized.h"
@@ -164,24 +163,6 @@ TEST(Refine, NarrowStripsGetEdgesThatFit) {
   EXPECT_GE(least_angle_of_faces(mesh_plc(beveled_square(0.01), options).mesh), 20);
 }
 
-TEST(Refine, SizesAreTheLeastOfAllThinPlaces) {
-  const plc::Plc plc = plc::build_plc(beveled_square(0.01));
-  const RefineOptions options{0.5 / plc.grid.unit, 0.3};
-  const std::vector<sizes::SizedPlace> places = sizes::find_thin_places(plc, options.edge_length, 2e6);
-  ASSERT_GT(places.size(), 1000u);
-  const sizes::SizeField field(options.edge_length, options.grading, sizes::limited_from_below(places, 0));
-  sizes::SizeWalk walk(field);
-  for (const auto& t : plc.triangles) {
-    const auto [a, b, c] = corners(t, plc.vertices);
-    for (const Point3& p : {a, 0.5 * (b + c), 0.01 * (99 * a + b), (1.0 / 3) * (a + b + c)}) {
-      double least = options.edge_length;
-      for (const sizes::SizedPlace& place : places)
-        least = std::min(least, place.size + options.grading * length(place.box.low - p));
-      EXPECT_EQ(walk.at(p), least);
-    }
-  }
-}
-
 TEST(Refine, TheNarrowestStripsDoNotCostMillionsOfTetrahedra) {
   const double most = is_sanitized ? 1e5 : 1e6;
   const Refined r = refined(beveled_square(0.00002), 0.5, {.most_tetrahedra = most});
@@ -225,6 +206,16 @@ TEST(Refine, ExtremelyThinWallsDoNotTakeForever) {
   const std::uint64_t nodes = work_done.box_tree_nodes;
   refined(box({0, 0, 0}, {4, 4, 1e-5}), 0.2);
   EXPECT_LT(work_done.box_tree_nodes - nodes, 60'000'000u);
+}
+
+TEST(Refine, ThinPlacesCostInProportionToTheRest) {
+  const InputPlc plate = box({0, 0, 0}, {10, 10, 1e-4});
+  const std::size_t few = refined(plate, 2).after.plc.triangles.size(),
+                    many = refined(plate, 0.25).after.plc.triangles.size();
+  EXPECT_GT(few, 1000u);
+  EXPECT_LT(few, 20000u);
+  EXPECT_GT(many, 10000u);
+  EXPECT_LT(many, 60000u);
 }
 
 TEST(Refine, LongSegmentsSideBySideCostFewFlips) {

@@ -233,7 +233,7 @@ TEST(Remeshing, ModelsReachTheirEdgeLength) {
 
 TEST(Remeshing, ShellsThinnerThanTheEdgesDoNotCross) {
   InputPlc shell = models::make_solid("sphere", 0.1);
-  const auto shrunk = [](const Point3& p) { return 0.995 * p; };  // so thin that it gets no shorter edges
+  const auto shrunk = [](const Point3& p) { return 0.997 * p; };  // so thin that it gets no shorter edges
   append(shell, rotated(oblique, mapped(shell, shrunk)));
   shell.triangle_markers.clear();
   std::uint64_t attempts = 0;

@@ -103,6 +103,27 @@ TEST(InterpolatedSizes, AreThoseOfTheNearestVertexOutside) {
   EXPECT_NEAR(least_target(sizes, {{-1, 7, 1}, {1, 8, 2}}), 2, 1e-9);  // half and half
 }
 
+TEST(SizeField, IsTheLeastOverPlacesOfSizePlusGradingTimesDistance) {
+  std::mt19937 random(1);
+  const auto number = [&] { return static_cast<double>(random() % 1000); };
+  std::vector<sizes::SizedPlace> places;
+  for (int i = 0; i < 500; ++i) {
+    const Point3 low{number(), number(), number()};
+    places.push_back({{low, low + 0.1 * Point3{number(), number(), number()}}, number()});
+  }
+  const sizes::SizeField field(90, 0.3, places);
+  sizes::SizeWalk walk(field);
+  for (int i = 0; i < 500; ++i) {
+    const Point3 p{number(), number(), number()};
+    double least = 90;
+    for (const sizes::SizedPlace& place : places)
+      least = std::min(least, place.size + 0.3 * std::sqrt(squared_distance(place.box, p)));
+    EXPECT_EQ(field.at(p), least);
+    EXPECT_EQ(walk.at(p), least);
+    EXPECT_NEAR(least_target(field, box_of(p)), least, 1e-9 * least);
+  }
+}
+
 TEST(SizeField, OfABackgroundIsTheLeastOverVerticesOfSizePlusGradingTimesDistance) {
   const Shape shape = cube(2);
   const sizes::BackgroundSizes two{{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}};

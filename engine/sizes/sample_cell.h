@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "engine/base/hash_table.h"
+#include "engine/base/index.h"
+#include "engine/base/point.h"
+
+namespace ccdt::sizes {
+
+/// The cube that a point is in, in a grid of one facet whose edges are the greatest power of two that is not above a
+/// size.
+struct SampleCell {
+  std::array<std::int64_t, 3> place;
+  std::int32_t exponent;
+  FacetId facet;
+
+  bool operator==(const SampleCell&) const = default;
+};
+
+}  // namespace ccdt::sizes
+
+template <>
+struct ccdt::HashTraits<ccdt::sizes::SampleCell> {
+  static constexpr sizes::SampleCell none() { return {{}, 0, {}}; }
+  static std::size_t hash(const sizes::SampleCell& cell) {
+    std::uint64_t h = std::uint64_t{cell.facet.value} << 32 | static_cast<std::uint32_t>(cell.exponent);
+    for (const std::int64_t x : cell.place)
+      h = ((h ^ h >> 29) + static_cast<std::uint64_t>(x)) * std::uint64_t{0x9E3779B97F4A7C15};
+    return h >> 20;
+  }
+};
+
+namespace ccdt::sizes {
+
+/// \param size  > 0
+inline SampleCell cell_of(const Point3& p, double size, FacetId facet = FacetId(0u)) {
+  int exponent = 0;
+  std::frexp(size, &exponent);
+  const auto place = [&](double x) { return static_cast<std::int64_t>(std::floor(std::ldexp(x, 1 - exponent))); };
+  return {{place(p.x), place(p.y), place(p.z)}, exponent, facet};
+}
+
+}  // namespace ccdt::sizes
