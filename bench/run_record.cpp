@@ -62,8 +62,7 @@ inline constexpr auto fields<MeshCounts> =
                optional_field("front_faces", &MeshCounts::front_faces),
                optional_field("refined_on_segments", &MeshCounts::refined_on_segments),
                optional_field("refined_in_facets", &MeshCounts::refined_in_facets),
-               field_if_any("segments", &MeshCounts::segments), optional_field("improve", &MeshCounts::improve),
-               optional_field("cutting_faces", &MeshCounts::cutting_faces));
+               field_if_any("segments", &MeshCounts::segments), optional_field("improve", &MeshCounts::improve));
 
 template <>
 inline constexpr auto fields<RunRecord::MesherName> = std::tuple(field("name", &RunRecord::MesherName::name),

@@ -11,10 +11,9 @@
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
-#include "engine/facets/touching_faces.h"
+#include "engine/folds/protect_facets.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/count_segments.h"
-#include "engine/front/cutting_faces.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
@@ -22,7 +21,6 @@
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/collect_tetrahedra.h"
-#include "engine/mesh/face_to_face.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/edge_length_bounds.h"
@@ -30,8 +28,6 @@
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
-#include "engine/retry/divide_facets.h"
-#include "engine/retry/remedies.h"
 
 namespace ccdt {
 namespace {
@@ -102,7 +98,7 @@ delaunay::Delaunay add_points(lattice::LatticePoints lattice, delaunay::Delaunay
   return d;
 }
 
-/// The constrained Delaunay tetrahedralization of an input as a mesh, or why there is none.
+/// The constrained Delaunay tetrahedralization of an input as a mesh.
 struct Tetrahedralization {
   plc::Plc plc;
   protection::SegmentChains chains;
@@ -112,8 +108,6 @@ struct Tetrahedralization {
   std::size_t first_interior = 0;            ///< of the points
   std::vector<std::uint32_t> facet_of_face;  ///< by face of the mesh
   MeshCounts counts;
-  std::optional<front::Stuck> stuck;  ///< if there is a mesh all the same, parts of it overlap within the tolerance
-  facets::FacetMesh facets;           ///< if stuck
 };
 
 std::size_t first_steiner_vertex(const Tetrahedralization& t) {
@@ -126,93 +120,39 @@ bool improves(const MeshOptions& options, const Tetrahedralization& t) {
   return removes || improvement_of(options) != Improvement::none;
 }
 
-/// \param faces  that may be the cause; if there are none, nothing is wrong
-std::optional<front::Stuck> stuck_at(const char* what, std::vector<std::uint32_t> faces, const plc::Plc& plc,
-                                     const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
-  if (faces.empty()) return std::nullopt;
-  const auto& [a, b, c] = facets.triangles[faces.front()];
-  front::Stuck stuck =
-      front::stuck_near(what, plc, std::array{delaunay.point(a), delaunay.point(b), delaunay.point(c)});
-  stuck.faces = std::move(faces);
-  return stuck;
-}
-
-/// Facets that are flat only within the tolerance may touch each other, or a segment beside them.
-std::optional<front::Stuck> check_apart(const plc::Plc& plc, const protection::SegmentChains& chains,
-                                        const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay) {
-  return stuck_at("a facet touches another one",
-                  facets::find_touching_faces(plc, chains, facets, delaunay.vertices.size()), plc, facets, delaunay);
-}
-
-/// Facets that are flat only within the tolerance may pass through tetrahedra of the front.
-std::optional<front::Stuck> check_uncut(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                        const delaunay::Delaunay& delaunay, const front::FrontResult& front) {
-  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return std::nullopt;
-  return stuck_at("a facet passes through a tetrahedron", front::find_cutting_faces(facets, delaunay, front.tetrahedra),
-                  plc, facets, delaunay);
-}
-
-/// The front with the strategies that were asked for. Where a facet is flat only within the tolerance, one strategy may
-/// get stuck and another one not. So if it is stuck, the usual ones decide: the mesh does not depend on the strategy.
-///
-/// \param codes  become `no_neighbor` if the front has made all faces
-front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay,
-                           const MeshOptions& options, const Progress& progress, std::vector<std::uint32_t>& codes) {
-  const front::FrontOptions usual{.locator = locate::LocatorKind::cavity};
-  if (options.face_protection && options.locator == usual.locator && options.visibility == usual.visibility)
-    return front::advance_front({plc, facets, codes, delaunay}, usual, progress);
-  std::vector<std::uint32_t> used = codes;
-  if (!options.face_protection) std::ranges::fill(used, delaunay::no_neighbor);
-  front::FrontResult front = front::advance_front(
-      {plc, facets, used, delaunay}, {options.locator, options.grid_scale, options.face_protection, options.visibility},
-      progress);
-  if (front.stuck) return front::advance_front({plc, facets, codes, delaunay}, usual, progress);
-  codes = std::move(used);
-  return front;
-}
-
 /// The mesh of the space that the facets enclose.
 ///
 /// \param delaunay  loses its cells and vertices
 /// \param codes     of the faces of the facets, see `front::FrontInput`
-/// \return  why there is none, or why parts of it overlap
-std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets,
-                                        std::vector<std::uint32_t> codes, Run& run, Tetrahedralization& t) {
-  auto touching = run.measured(Stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
-  if (touching) return touching;
-
-  front::FrontResult front =
-      run.measured(Stage::front, [&] { return advance(t.plc, facets, delaunay, run.options, run.progress, codes); });
-  if (front.stuck) return front.stuck;
+void fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, std::vector<std::uint32_t> codes, Run& run,
+                 Tetrahedralization& t) {
+  const MeshOptions& options = run.options;
+  if (!options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
+  const front::FrontOptions strategy{options.locator, options.grid_scale, options.face_protection, options.visibility};
+  front::FrontResult front = run.measured(Stage::front, [&] {
+    return front::advance_front({t.plc, facets, codes, delaunay}, strategy, run.progress);
+  });
   t.counts.front_tetrahedra = front.tetrahedra.size();
   t.counts.front_faces = front.undelaunay_faces;
 
-  label::CellLabels labels =
+  RawVector<RegionId> regions =
       run.measured(Stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
-  if (labels.stuck) return labels.stuck;
-  if (auto wrong = run.measured(Stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
-    return wrong;
-  std::optional<front::Stuck> cut =
-      run.measured(Stage::finish, [&] { return check_uncut(t.plc, facets, delaunay, front); });
   t.points = points_of(delaunay);
   // The next steps need the most memory.
   release(delaunay.vertices), release(delaunay.cell_at), release(codes);
   mesh::CollectedMesh collected = run.measured(Stage::label, [&] {
-    return mesh::collect_tetrahedra(t.plc, front, std::move(labels.regions), delaunay.cells, t.points.size());
+    return mesh::collect_tetrahedra(t.plc, front, std::move(regions), delaunay.cells, t.points.size());
   });
   front = {};
-  if (auto wrong =
-          run.measured(Stage::finish, [&] { return mesh::check_volume(t.plc, facets, t.points, collected.mesh); }))
-    return wrong;
-  t.facet_of_face = run.measured(Stage::finish, [&] {
-    return mesh::finish_mesh(t.plc, t.chains, t.points, cut ? facets : std::move(facets), collected);
+  run.measured(Stage::finish, [&] {
+    mesh::check_volume(t.plc, facets, t.points, collected.mesh);
+    t.facet_of_face = mesh::finish_mesh(t.plc, t.chains, t.points, std::move(facets), collected);
   });
-  if (improves(run.options, t))
+  if (improves(options, t))
     t.cells = run.measured(Stage::improve, [&] {
       return mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), std::move(delaunay.cells));
     });
   t.mesh = std::move(collected.mesh);
-  return cut;
 }
 
 /// The faces of the facets in the tetrahedralization. Most are triangles that the check of the input has found there.
@@ -237,24 +177,13 @@ std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::F
 ///
 /// \param delaunay  loses its cells and vertices
 void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, Run& run, Tetrahedralization& t) {
-  std::vector<std::uint32_t> codes = run.measured(Stage::face_check, [&] {
-    std::vector<std::uint32_t> found = find_faces_again(t.plc, facets, delaunay);
-    if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
-      found = find_faces_again(t.plc, facets, delaunay);
-    return found;
-  });
+  std::vector<std::uint32_t> codes =
+      run.measured(Stage::face_check, [&] { return find_faces_again(t.plc, facets, delaunay); });
   t.counts.faces = facets.triangles.size();
   // Only for the report, so it is not the work of a stage.
   t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, delaunay);
-  std::vector<std::uint32_t> missing;
-  for (std::uint32_t i = 0; i < codes.size(); ++i)
-    if (codes[i] == delaunay::no_neighbor) missing.push_back(i);
-  t.counts.undelaunay_faces = missing.size();
-  t.stuck = fill_domain(delaunay, facets, std::move(codes), run, t);
-  if (!t.stuck) return;
-  if (t.stuck->faces.empty()) t.stuck->faces = std::move(missing);
-  t.facets = std::move(facets);
-  if (t.points.empty()) t.points = points_of(delaunay);
+  t.counts.undelaunay_faces = static_cast<std::size_t>(std::ranges::count(codes, delaunay::no_neighbor));
+  fill_domain(delaunay, facets, std::move(codes), run, t);
 }
 
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
@@ -277,8 +206,8 @@ struct CheckedInput {
   std::optional<delaunay::Delaunay> delaunay;
 };
 
-CheckedInput check_input(const InputPlc& input, const plc::Strictness& strictness, Run& run) {
-  const plc::PlcOptions flat{run.options.flatness, strictness};
+CheckedInput check_input(const InputPlc& input, Run& run) {
+  const plc::PlcOptions flat{run.options.flatness};
   plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
   CheckedInput checked;
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
@@ -314,27 +243,18 @@ std::vector<Point3> refine_surface(Run& run, Tetrahedralization& t) {
 }
 
 /// All stages but improvement.
-Tetrahedralization tetrahedralize(const InputPlc& input, const retry::Remedies& remedies, Run& run) {
+Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
   Tetrahedralization t;
-  CheckedInput checked = check_input(input, remedies.strictness, run);
+  CheckedInput checked = check_input(input, run);
   t.plc = std::move(checked.plc);
   std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
-  if (!remedies.divided.empty()) {
-    if (!delaunay) delaunay = tetrahedralize_vertices(t.plc.vertices, run);
-    if (!delaunay) delaunay::refuse_flat_points();
-    run.measured(Stage::plc, [&] {
-      retry::divide_facets(*delaunay, remedies.divided, plc::tolerance_of(t.plc, run.options.flatness), t.plc);
-    });
-  }
   if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(run, t), run);
   if (!delaunay) delaunay::refuse_flat_points();
-  protection::ProtectedDelaunay surface = run.measured(Stage::protect, [&] {
-    return retry::split_pieces(
-        t.plc,
-        protection::protect_edges(t.plc, protection::unprotected(t.plc, *std::move(delaunay), std::move(t.chains)),
-                                  run.options.protection, run.progress),
-        remedies, run.options.protection, run.progress);
+  folds::ProtectedSurface folded = run.measured(Stage::protect, [&] {
+    return folds::protect_facets(t.plc, *std::move(delaunay), std::move(t.chains),
+                                 plc::tolerance_of(t.plc, run.options.flatness), run.options.protection, run.progress);
   });
+  protection::ProtectedDelaunay& surface = folded.delaunay;
   const auto count_steiner_vertices = [&] {
     t.first_interior = surface.delaunay.vertices.size();
     t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size() - t.counts.refined_on_segments;
@@ -356,8 +276,10 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const retry::Remedies& 
       t.counts.dropped_interior_vertices = lattice.points.size();
       const auto avoided =
           run.options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
-      keep_only(protection::make_room(lattice.points, t.plc, run.options.protection, surface, avoided, run.progress),
-                lattice);
+      const auto folds = [&](const auto& its) { return folds::folds_after_splits(t.plc, its, folded); };
+      keep_only(
+          protection::make_room(lattice.points, t.plc, run.options.protection, surface, avoided, folds, run.progress),
+          lattice);
       t.counts.dropped_interior_vertices -= lattice.points.size();
     });
   }
@@ -372,35 +294,6 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const retry::Remedies& 
   t.counts.interior_vertices = all.vertices.size() - t.first_interior;
 
   constrain(all, facets, run, t);
-  return t;
-}
-
-/// Tries remedies for as long as the vertices have no constrained Delaunay tetrahedralization. If none helps, a mesh
-/// whose parts overlap within the tolerance is better than none.
-Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, Run& run) {
-  retry::Remedies remedies;
-  Tetrahedralization t = tetrahedralize(input, remedies, run);
-  std::optional<Tetrahedralization> overlapping;
-  const auto keep_overlapping = [&] {
-    if (!overlapping && !t.mesh.tetrahedra.empty()) overlapping = std::move(t);
-  };
-  while (t.stuck) {
-    if (!retry::add_remedy({t.plc, t.chains, t.facets, t.points, t.stuck->faces}, remedies)) {
-      keep_overlapping();
-      if (overlapping) return *std::move(overlapping);
-      throw MeshError(t.stuck->error);
-    }
-    try {
-      Tetrahedralization next = tetrahedralize(input, remedies, run);
-      keep_overlapping();
-      t = std::move(next);
-    } catch (const LimitError&) {  // the new segments are too close to others
-      if (retry::replace_remedy(remedies)) continue;
-      keep_overlapping();
-      if (overlapping) return *std::move(overlapping);
-      throw;
-    }
-  }
   return t;
 }
 
@@ -426,7 +319,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   const InputPlc& flat = triangulated ? *triangulated : input;
   run.options.edge_length = edge_length_of(options, flat);
   if (options.refine_surface) plc::check_edges_of_surface(flat, run.options.edge_length);
-  Tetrahedralization t = tetrahedralize_with_remedies(flat, run);
+  Tetrahedralization t = tetrahedralize(flat, run);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
@@ -443,10 +336,6 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
     t.counts.interior_vertices = t.points.size() - (t.first_interior - removed);
     t.counts.splits_by_level = protection::count_splits_by_level(t.chains);
     t.counts.segments->restored = t.counts.segments->split - protection::count_split(t.chains);
-  }
-  if (t.stuck) {
-    if (!mesh::is_face_to_face(t.mesh)) throw MeshError(t.stuck->error);
-    t.counts.cutting_faces = t.stuck->faces.size();
   }
   t.mesh.vertices = run.measured(Stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   if (const auto attribute = mesh::common_attribute(t.plc.regions))

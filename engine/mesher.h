@@ -82,9 +82,6 @@ struct MeshCounts {
   std::uint64_t refined_in_facets = 0;         ///< and to facets
   std::optional<SegmentCounts> segments = {};  ///< only of ccdt
   ImproveCounts improve = {};
-  /// Faces that pass through a tetrahedron of the front, if no other mesh was found. Parts of the mesh may overlap
-  /// there by less than the tolerance of flatness.
-  std::uint64_t cutting_faces = 0;
 };
 
 struct MeshResult {

@@ -180,12 +180,6 @@ std::string words_of(const bench::SurfaceLimit& limit) {
          "); --surface refine puts even triangles on flat facets, --surface remesh on bent surfaces, too";
 }
 
-std::string note_on_overlaps(std::uint64_t cutting_faces) {
-  return "parts of the mesh may overlap by less than --flatness, because " + results::with_separators(cutting_faces) +
-         (cutting_faces == 1 ? " face passes" : " faces pass") +
-         " through tetrahedra and no other mesh was found; `ccdt verify --details` shows where";
-}
-
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.
 void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
   if (command.report.empty()) return;
@@ -215,7 +209,6 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   if (result.idle_holes > 0)
     record.notes.push_back("hole points that are outside of everything that the facets enclose were not used: " +
                            results::with_separators(result.idle_holes));
-  if (result.counts.cutting_faces > 0) record.notes.push_back(note_on_overlaps(result.counts.cutting_faces));
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
 }
 

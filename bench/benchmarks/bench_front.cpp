@@ -45,7 +45,7 @@ front::FrontResult advance(const Stages& s, Strategy strategy, const std::vector
 std::string find_fault(const Stages& s, Strategy strategy) {
   const auto codes = codes_for(s, strategy.check);
   const front::FrontResult front = advance(s, strategy, codes);
-  const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes).regions;
+  const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes);
   if (sorted(mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay.cells, s.delaunay.vertices.size())
                  .mesh.tetrahedra) != s.tetrahedra)
     return "the tetrahedra are not those of the grid with the check";

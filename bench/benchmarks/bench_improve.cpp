@@ -48,7 +48,7 @@ const Unimproved& unimproved(const Stages& s) {
   Unimproved& u = at->second;
   if (is_new) {
     u.points = points_of(s.delaunay);
-    const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
+    const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
     mesh::CollectedMesh collected =
         mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay.cells, s.delaunay.vertices.size());
     u.facet_of_face = mesh::finish_mesh(s.plc, s.chains, u.points, s.facets, collected);

@@ -17,7 +17,7 @@ namespace ccdt::benchmarks {
 namespace {
 
 mesh::TetMesh label(const Stages& s) {
-  const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes).regions;
+  const auto regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   return mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay.cells, s.delaunay.vertices.size()).mesh;
 }
 

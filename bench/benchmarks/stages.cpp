@@ -6,14 +6,15 @@
 #include <memory>
 #include <utility>
 
+#include "engine/folds/protect_facets.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/io/plc_files.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/protection/make_room.h"
-#include "engine/protection/protect_edges.h"
 #include "models/flatten.h"
 #include "models/solids.h"
 
@@ -53,18 +54,20 @@ LatticeInput lattice_input(const plc::Plc& plc, const protection::ProtectedDelau
   return input;
 }
 
-Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const plc::PlcOptions& options) {
+Stages make_stages(const plc::InputPlc& input, const Density& density) {
   Stages s;
-  s.plc = plc::build_plc(input, options);
+  s.plc = plc::build_plc(input);
   s.input_delaunay = delaunay::build_delaunay(s.plc.vertices);
-  protection::ProtectedDelaunay surface =
-      protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), protection::Protection::shell);
+  folds::ProtectedSurface folded = folds::protect_facets(
+      s.plc, s.input_delaunay, {}, plc::tolerance_of(s.plc, plc::PlcOptions{}.flatness), protection::Protection::shell);
+  protection::ProtectedDelaunay& surface = folded.delaunay;
   s.facets = facets::triangulate_facets(s.plc, surface.chains, surface.delaunay);
   s.lattice = lattice_input(s.plc, surface, s.facets, density);
   lattice::LatticePoints points = lattice::place_lattice_points(
       {s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options);
   keep_only(
-      make_room(points.points, s.plc, protection::Protection::shell, surface, protection::Avoided::smallest_spheres),
+      make_room(points.points, s.plc, protection::Protection::shell, surface, protection::Avoided::smallest_spheres,
+                [&](const auto& its) { return folds::folds_after_splits(s.plc, its, folded); }),
       points);
   s.first_interior = surface.delaunay.vertices.size();
   s.chains = std::move(surface.chains);
@@ -72,23 +75,10 @@ Stages mesh_in_stages(const plc::InputPlc& input, const Density& density, const 
   s.delaunay = std::move(surface.delaunay);
   insert_points(s.delaunay, points.points, points.later_rounds);
   s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
-  if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
-    s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
   s.front = front::advance_front({s.plc, s.facets, s.codes, s.delaunay});
-  if (s.front.stuck) return s;
-  const label::CellLabels labels = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
-  s.front.stuck = labels.stuck;
-  if (!labels.stuck)
-    s.tetrahedra =
-        sorted(mesh::collect_tetrahedra(s.plc, s.front, labels.regions, s.delaunay.cells, s.delaunay.vertices.size())
-                   .mesh.tetrahedra);
-  return s;
-}
-
-Stages make_stages(const plc::InputPlc& input, const Density& density) {
-  Stages s = mesh_in_stages(input, density, {});
-  if (s.front.stuck) s = mesh_in_stages(input, density, {.flatness = 0});  // mesh_plc divides fewer facets
-  if (s.front.stuck) throw MeshError(s.front.stuck->error);
+  const RawVector<RegionId> regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
+  s.tetrahedra = sorted(
+      mesh::collect_tetrahedra(s.plc, s.front, regions, s.delaunay.cells, s.delaunay.vertices.size()).mesh.tetrahedra);
   return s;
 }
 

@@ -60,7 +60,6 @@ const std::vector<std::pair<std::string, Better>>& usual_directions() {
       {"counts.segments.front", Better::fewer},
       {"counts.segments.delaunay", Better::more},
       {"counts.dropped_interior_vertices", Better::fewer},
-      {"counts.cutting_faces", Better::fewer},
       {"counts.improve.bad_cells_left", Better::fewer},
       {"quality.dihedral_degrees.min", Better::more},
       {"quality.*", Better::fewer},  // r, ratios and the largest angle

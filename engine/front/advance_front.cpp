@@ -10,6 +10,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/apex_finders.h"
 #include "engine/front/find_swallowed.h"
+#include "engine/front/stuck.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
 #include "engine/numbers/predicates.h"
@@ -70,9 +71,9 @@ class Front {
     first_search_ = finder.first_search();
     add_plc_faces(finder);
     finder_bytes_ = finder.bytes();
-    while (!undelaunay_.empty() && !is_over()) {
+    while (!undelaunay_.empty()) {
       fill_all(finder, progress);
-      if (!is_over()) take_back_swallowing(finder);
+      take_back_swallowing(finder);
     }
   }
 
@@ -86,7 +87,6 @@ class Front {
       if (result_.open.back().code == no_neighbor)
         fail(face_of_side(side), "a face of the front was not found in the tetrahedralization");
     }
-    list_stuck_faces();
     note_bytes(bytes_of(plc_open_, undelaunay_, result_.tetrahedra, result_.regions, result_.open) + faces_.bytes() +
                owners_.bytes() + doubts_.bytes() + bytes_of(cavities_) + finder_bytes_);
     faces_.for_each([&](const OrientedFace&, const State& state) {
@@ -120,30 +120,9 @@ class Front {
     return {base_of(t), {t[0], t[2], t[3]}, {t[2], t[1], t[3]}, {t[1], t[0], t[3]}};
   }
 
-  /// The front is stuck. To find the other places where that happens, it goes on without the face. If all vertices are
-  /// searched, or all faces made, that would take too long.
-  bool is_over() const { return result_.stuck && (first_search_ == Search::full || !face_protection_); }
-
-  void fail(const OrientedFace& face, const char* what) {
-    const auto add = [&](std::uint32_t v) { stuck_vertices_.insert(v, {}); };
-    std::ranges::for_each(face.corners, add);
-    for (const std::uint32_t tetrahedron : contradicted_) std::ranges::for_each(result_.tetrahedra[tetrahedron], add);
-    failed_.insert(face, {});
-    if (result_.stuck) return;
+  [[noreturn]] void fail(const OrientedFace& face, const char* what) const {
     const auto& [a, b, c] = face.corners;
-    result_.stuck =
-        stuck_near(what, in_.plc, std::array{in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)});
-  }
-
-  /// The missing faces that have a vertex where the front is stuck.
-  void list_stuck_faces() {
-    if (!result_.stuck || is_over()) return;
-    for (std::uint32_t i = 0; i < in_.codes.size(); ++i) {
-      if (in_.codes[i] != no_neighbor || in_.plc.facets[in_.facets.facet[i]].exactly_flat) continue;
-      const auto& corners = in_.facets.triangles[i];
-      if (std::ranges::any_of(corners, [&](std::uint32_t v) { return stuck_vertices_.contains(v); }))
-        result_.stuck->faces.push_back(i);
-    }
+    throw stuck_near(what, in_.plc, std::array{in_.delaunay.point(a), in_.delaunay.point(b), in_.delaunay.point(c)});
   }
 
   OrientedFace face_of_side(std::size_t side) const {
@@ -192,11 +171,11 @@ class Front {
   template <class Finder>
   void fill_all(Finder& finder, const Progress& progress) {
     std::uint64_t done = 0;
-    while (!undelaunay_.empty() && !is_over()) {
+    while (!undelaunay_.empty()) {
       const OrientedFace face = undelaunay_.back();
       undelaunay_.pop_back();
       State state;
-      if (!failed_.contains(face) && close(faces_.find(face), state)) fill(finder, face, state);
+      if (close(faces_.find(face), state)) fill(finder, face, state);
       if ((++done & 0xFFF) == 0) report(progress, "front", done, done + undelaunay_.size());
     }
   }
@@ -206,8 +185,7 @@ class Front {
   void take_back_swallowing(Finder& finder) {
     contradicted_ = find_swallowing(result_.tetrahedra, in_.facets, in_.delaunay);
     if (contradicted_.empty() || take_back_contradicted(finder)) return;
-    for (const std::uint32_t tetrahedron : std::exchange(contradicted_, {}))
-      fail(base_of(result_.tetrahedra[tetrahedron]), "a tetrahedron of the front contains a vertex");
+    fail(base_of(result_.tetrahedra[contradicted_.front()]), "a tetrahedron of the front contains a vertex");
   }
 
   /// Makes the tetrahedron above a face taken from the front, or removes what conflicts with it.
@@ -378,9 +356,7 @@ class Front {
   HashSet<OrientedFace, OrientedFaceTraits> doubts_;  // faces above which all vertices are tried
   std::vector<std::uint32_t> cavities_;               // of the tetrahedra
   std::vector<std::uint32_t> contradicted_;
-  HashSet<OrientedFace, OrientedFaceTraits> failed_;  // above which nothing fits
-  HashSet<std::uint32_t> stuck_vertices_;             // of these and of the tetrahedra that they contradict
-  std::uint64_t taken_back_ = 0;                      // tetrahedra
+  std::uint64_t taken_back_ = 0;  // tetrahedra
   FrontResult result_;
   std::size_t finder_bytes_ = 0;
 };

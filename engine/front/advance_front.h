@@ -3,14 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
 #include "engine/front/options.h"
-#include "engine/front/stuck.h"
 #include "engine/locate/options.h"
 #include "engine/plc/plc.h"
 
@@ -24,16 +22,13 @@ struct FrontFace {
   std::uint32_t code = no_neighbor;  ///< its code in the Delaunay cell above it; `no_neighbor` if it is undelaunay
 };
 
-/// The result of the front, and where it stopped.
+/// The result of the front.
 struct FrontResult {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented
   std::vector<RegionId> regions;                         ///< of each tetrahedron
   std::vector<FrontFace> open;  ///< the Delaunay faces above which the domain is left to the labeling
   /// Undelaunay faces that have been in the front: those of the PLC (by their sides within the domain) and new ones.
   std::uint64_t undelaunay_faces = 0;
-  /// The front found no vertex for a face, or met itself. The rest is incomplete. Only the `cavity` locator lists
-  /// the faces: those near the places that are missing and not exactly flat.
-  std::optional<Stuck> stuck = {};
 };
 
 /// The input of the front; all of it must outlive the stage.
@@ -62,6 +57,8 @@ struct FrontOptions {
 /// In a large chamber, the `cavity` locator tries vertices near a face first, because the sphere of a needle may
 /// contain thousands of hidden ones. If the tetrahedra fit together, they are right; those that do not fit are made
 /// again with all vertices tried. The locators of the whole model try all vertices, as the paper does.
+///
+/// \throw MeshError  the front found no vertex for a face, or met itself: the surface was not protected
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::front

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
-#include <vector>
 
 #include "engine/base/errors.h"
 #include "engine/base/point.h"
@@ -10,21 +8,13 @@
 
 namespace ccdt::front {
 
-/// Why the vertices have no constrained Delaunay tetrahedralization: a facet that is flat only within the tolerance
-/// bends away from a line of sight.
-struct Stuck {
-  MeshError error;
-  std::vector<std::uint32_t> faces = {};  ///< of the facets, ascending: they may be the cause; none: not known
-};
-
+/// The error that the vertices have no constrained Delaunay tetrahedralization, although their surface is protected.
+///
 /// \param points  near the place, in grid units; none: not known
-inline Stuck stuck_near(const char* what, const plc::Plc& plc, std::span<const Point3> points) {
+inline MeshError stuck_near(const char* what, const plc::Plc& plc, std::span<const Point3> points) {
   Place place{.file = plc.name};
   for (const Point3& p : points) place.points.push_back(as_array(plc.grid.to_world(p)));
-  return {MeshError(what, place,
-                    points.empty()
-                        ? "some facets are almost but not quite flat: try another --flatness"
-                        : "the facets near these points are almost but not quite flat: try another --flatness")};
+  return {what, place, "this is a bug: please report it with the file; another --flatness may help"};
 }
 
 }  // namespace ccdt::front

@@ -10,6 +10,7 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/front/stuck.h"
 
 namespace ccdt::label {
 
@@ -22,11 +23,11 @@ constexpr std::size_t grain = 4096;  // of loops on several threads
 /// Eight bits per cell: the separating faces, set on both sides, and above them those that are open on this side.
 using FaceBits = RawVector<std::uint8_t>;
 
-CellLabels stuck_at(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint32_t cell) {
+[[noreturn]] void refuse(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint32_t cell) {
   std::vector<Point3> points;
   for (const std::uint32_t v : d.cells[cell].vertices)
     if (v != ghost_vertex) points.push_back(d.point(v));
-  return {{}, front::stuck_near("the front does not separate the inside from the outside", plc, points)};
+  throw front::stuck_near("the front does not separate the inside from the outside", plc, points);
 }
 
 FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
@@ -137,8 +138,9 @@ class RegionFlood {
 
 }  // namespace
 
-CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const std::vector<front::FrontFace>& open,
-                       const std::vector<std::uint32_t>& wall_codes) {
+RawVector<RegionId> label_cells(const plc::Plc& plc, const delaunay::Delaunay& d,
+                                const std::vector<front::FrontFace>& open,
+                                const std::vector<std::uint32_t>& wall_codes) {
   const FaceBits bits = mark_walls(d, open, wall_codes);
   RawVector<RegionId> region(d.cells.size());
   parallel_fill(std::span(region), RegionId());
@@ -159,13 +161,13 @@ CellLabels label_cells(const plc::Plc& plc, const delaunay::Delaunay& d, const s
   }
   note_bytes(bytes_of(bits, region, first) + flood.bytes());
   for (const front::FrontFace& face : open)
-    if (region[cell_of(face.code)] != face.region) return stuck_at(plc, d, cell_of(face.code));
+    if (region[cell_of(face.code)] != face.region) refuse(plc, d, cell_of(face.code));
   // No wall divides the ghosts.
   std::uint32_t ghost = 0;
   while (d.is_dead(ghost) || !d.is_ghost(ghost)) ++ghost;
-  if (!region[ghost].is_none()) return stuck_at(plc, d, ghost);
-  if (flood.leak() != delaunay::no_cell) return stuck_at(plc, d, flood.leak());
-  return {std::move(region)};
+  if (!region[ghost].is_none()) refuse(plc, d, ghost);
+  if (flood.leak() != delaunay::no_cell) refuse(plc, d, flood.leak());
+  return region;
 }
 
 }  // namespace ccdt::label

@@ -2,14 +2,10 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
-#include "engine/front/advance_front.h"
-#include "engine/front/stuck.h"
 #include "engine/mesh/collect_tetrahedra.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/plc.h"
@@ -17,18 +13,13 @@
 
 namespace ccdt::mesh {
 
-/// The error if the volume of the tetrahedra differs from that inside the facets. All cells are positive and share
-/// their faces; if the volume is right too, they fill the domain once, and there is no error.
+/// Proves that the tetrahedra fill the domain once: all are positive and share their faces, so they do if their volume
+/// is that inside the facets.
 ///
-/// \param points  the vertices, in grid units
-std::optional<front::Stuck> check_volume(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                         std::span<const Point3> points, const TetMesh& mesh);
-
-/// The error if the tetrahedra of the front are not constrained Delaunay: a face between two, or between one and a
-/// labeled cell, is not locally Delaunay. That is possible only if a facet is not exactly flat, so nothing is tested
-/// otherwise.
-std::optional<front::Stuck> check_front(const plc::Plc& plc, const facets::FacetMesh& facets,
-                                        const delaunay::Delaunay& delaunay, const front::FrontResult& front);
+/// \param points     the vertices, in grid units
+/// \throw MeshError  it is not
+void check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const Point3> points,
+                  const TetMesh& mesh);
 
 /// Completes the mesh except for its coordinates: removes the flat tetrahedra on its boundary, and adds the faces of
 /// the facets and the edges of the segments.

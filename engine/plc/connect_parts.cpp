@@ -39,11 +39,10 @@ ConnectedParts connect_parts(const Plc& plc, TriangleSet given_triangles, Segmen
   auto& [triangles, segments, edges, match, patches] = parts;
   edges = make_edge_table(triangles.corners);
   match = match_segments(segments, edges);
-  const std::vector<double> tolerances =
-      tolerances_of(plc.vertices, triangles.corners, options.strictness, tolerance_of(plc, options.flatness));
+  const double tolerance = tolerance_of(plc, options.flatness);
+  const std::vector<double> tolerances(triangles.size(), tolerance);
   patches = find_facets(plc.vertices, triangles, edges, match.segment_of, tolerances);
-  overlaps.covering =
-      sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, std::ranges::min(tolerances), edges, limit);
+  overlaps.covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges, limit);
   overlaps.crossing = find_overlaps(plc.vertices, triangles, patches, close, limit);
   if (!match.loose.empty()) {
     tree.emplace(boxes_of(plc.vertices, triangles));

@@ -1,14 +1,12 @@
 #pragma once
 
 #include "engine/base/flatness.h"
-#include "engine/plc/strict_places.h"
 
 namespace ccdt::plc {
 
 struct PlcOptions {
   double flatness = usual_flatness;  ///< tolerance for the vertices of a patch to be in one plane, so that it is one
                                      ///< facet; as a fraction of the box. See `flatness_for`
-  Strictness strictness = {};        ///< where it is smaller
 };
 
 }  // namespace ccdt::plc

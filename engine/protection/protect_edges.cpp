@@ -133,7 +133,7 @@ class Protector {
 ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, SegmentChains chains) {
   ProtectedDelaunay result{std::move(delaunay), std::move(chains), {}};
   for (const plc::Segment& s : plc.segments) result.must_be_chain.push_back(s.grazeable);
-  if (result.chains.empty()) result.chains = SegmentChains(plc.segments);
+  result.chains.append(std::span(plc.segments).subspan(result.chains.size()));
   return result;
 }
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/errors.h"
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/plc/plc.h"
@@ -23,10 +24,17 @@ struct ProtectedDelaunay {
 /// The vertices at the ends of a piece of a segment, in the order of its chain.
 using PieceEnds = std::array<std::uint32_t, 2>;
 
+/// A segment cannot be protected.
+class SegmentLimit : public LimitError {
+ public:
+  SegmentLimit(const std::array<VertexId, 2>& its_ends, const LimitError& error) : LimitError(error), ends(its_ends) {}
+  std::array<VertexId, 2> ends;
+};
+
 /// The state before protection, in which the grazeable segments must still become chains of Delaunay edges.
 ///
 /// \param delaunay  of the vertices of `plc` and of those inside the chains
-/// \param chains    vertices that the segments have already, the first ones after those of `plc`; empty: none
+/// \param chains    vertices that the first segments have already, the first ones after those of `plc`
 ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, SegmentChains chains = {});
 
 /// Splits every missing grazeable segment until each is a chain of Delaunay edges (paper, section 2), so that the
@@ -43,7 +51,7 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices
 /// \param to_split  pieces that are split first, whether they are edges or not; those that are too short stay
 /// \return          the same with the Steiner vertices, whose ids follow the existing ones
-/// \throw LimitError  a segment would need a split that is not on the grid; carries the place
+/// \throw SegmentLimit  a segment would need a split that is not on the grid; carries the place
 ProtectedDelaunay protect_edges(const plc::Plc& plc, ProtectedDelaunay start, Protection strategy,
                                 const Progress& progress = {}, std::span<const PieceEnds> to_split = {});
 

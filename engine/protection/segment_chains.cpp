@@ -5,15 +5,15 @@
 
 namespace ccdt::protection {
 
-SegmentChains::SegmentChains(std::span<const plc::Segment> segments) {
-  begins_.reserve(segments.size() + 1);
-  vertices_.reserve(2 * segments.size());
+void SegmentChains::append(std::span<const plc::Segment> segments) {
+  if (begins_.empty()) begins_.push_back(0);
+  begins_.reserve(begins_.size() + segments.size());
+  vertices_.reserve(vertices_.size() + 2 * segments.size());
   for (const plc::Segment& segment : segments) {
-    begins_.push_back(static_cast<std::uint32_t>(vertices_.size()));
     vertices_.push_back({segment.ends[0], 0});
     vertices_.push_back({segment.ends[1], whole_segment});
+    begins_.push_back(static_cast<std::uint32_t>(vertices_.size()));
   }
-  begins_.push_back(static_cast<std::uint32_t>(vertices_.size()));
 }
 
 std::vector<std::array<VertexId, 2>> SegmentChains::pieces() const {

@@ -36,7 +36,9 @@ class SegmentChains {
  public:
   SegmentChains() = default;
   /// Segments without inner vertices.
-  explicit SegmentChains(std::span<const plc::Segment> segments);
+  explicit SegmentChains(std::span<const plc::Segment> segments) { append(segments); }
+  /// Adds segments without inner vertices.
+  void append(std::span<const plc::Segment> segments);
 
   bool empty() const { return begins_.empty(); }
   std::size_t size() const { return empty() ? 0 : begins_.size() - 1; }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/errors.h"
+#include "engine/protection/protect_edges.h"
 
 namespace ccdt::protection {
 namespace {
@@ -72,9 +73,11 @@ std::size_t most_splits(std::size_t vertices) {
   Place place;
   place.file = plc.name;
   for (const VertexId v : plc.segments[piece.segment].ends) place.points.push_back(as_array(plc.world[v]));
-  throw LimitError(std::string("a segment cannot be protected: ") + why, place,
-                   "look for features at its ends or beside it that are smaller than 1e-5 of it, and remove them or "
-                   "split the segment");
+  throw SegmentLimit(
+      plc.segments[piece.segment].ends,
+      LimitError(std::string("a segment cannot be protected: ") + why, place,
+                 "look for features at its ends or beside it that are smaller than 1e-5 of it, and remove them or "
+                 "split the segment"));
 }
 
 }  // namespace

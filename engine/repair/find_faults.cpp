@@ -247,7 +247,7 @@ Diagnosis describe(const InputPlc& input) {
 }  // namespace
 
 Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& progress) {
-  const plc::PlcOptions options{flatness, {}};
+  const plc::PlcOptions options{flatness};
   Diagnosis diagnosis = describe(input);
   find_unusual_file(input, diagnosis);
   report(progress, check_stage, 0, check_steps);

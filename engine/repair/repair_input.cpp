@@ -184,7 +184,7 @@ InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
 
 Repaired repair_input(const InputPlc& input, const RepairOptions& options, const Progress& progress) {
   report(progress, repair_stage, 0, steps_of_repair);
-  const plc::PlcOptions plc_options{options.flatness, {}};
+  const plc::PlcOptions plc_options{options.flatness};
   Repaired repaired;
   StepList steps(repaired.steps);
   Soup soup = gather_soup(input, plc_options);

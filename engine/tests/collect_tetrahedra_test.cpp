@@ -10,7 +10,6 @@
 
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
-#include "engine/mesh/face_to_face.h"
 #include "engine/mesher.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/improve_checks.h"
@@ -34,7 +33,7 @@ std::size_t count_joined(const LargeVector<delaunay::Cell>& cells) {
 /// \return  how many faces, seen from both sides, the Delaunay cells had in common
 std::size_t expect_neighbors_kept(const Stages& s, const front::FrontResult& front,
                                   const std::vector<std::uint32_t>& codes) {
-  const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes).regions;
+  const auto regions = label::label_cells(s.plc, s.delaunay, front.open, codes);
   mesh::CollectedMesh collected =
       mesh::collect_tetrahedra(s.plc, front, regions, s.delaunay.cells, s.delaunay.vertices.size());
   std::vector<Point3> points;
@@ -85,18 +84,6 @@ TEST(JoinTetrahedra, AgreesWithTheCornersOfFacesOfRandomPlcs) {
   std::mt19937 random(11);
   for (int i = 0; i < 10; ++i) expect_neighbors_kept(random_convex(12 + i, random));
   for (int i = 0; i < 4; ++i) expect_neighbors_kept(random_voxels(3, 2, random));
-}
-
-TEST(FaceToFace, IsAMeshWithoutTwoTetrahedraOnOneSideOfAFace) {
-  mesh::TetMesh mesh;
-  EXPECT_TRUE(mesh::is_face_to_face(mesh));
-  mesh.tetrahedra = {{0, 1, 2, 3}, {2, 1, 0, 4}};  // on both sides of 0 1 2
-  EXPECT_TRUE(mesh::is_face_to_face(mesh));
-  mesh.tetrahedra.push_back({5, 2, 1, 3});
-  EXPECT_TRUE(mesh::is_face_to_face(mesh));
-  mesh.tetrahedra.push_back({0, 1, 2, 5});
-  EXPECT_FALSE(mesh::is_face_to_face(mesh));
-  for (const auto& [name, input] : small_inputs()) EXPECT_TRUE(mesh::is_face_to_face(mesh_plc(input).mesh)) << name;
 }
 
 }  // namespace

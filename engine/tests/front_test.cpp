@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/front/cutting_faces.h"
 #include "engine/mesher.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_test_solids.h"
@@ -56,27 +55,6 @@ TEST(Front, BuildsTheDelaunayCellsWhereNoFacetIsInTheWay) {
   EXPECT_EQ(bipyramid.undelaunay(), 0u);
   EXPECT_TRUE(bipyramid.advance().tetrahedra.empty());
   EXPECT_EQ(sorted(bipyramid.advance_all().tetrahedra), Cells({{0, 1, 3, 4}, {0, 2, 3, 4}, {1, 2, 3, 4}}));
-}
-
-TEST(Front, KnowsWhichFacesPassThroughItsTetrahedra) {
-  // At the edge from 0 to 1: the tetrahedron is between the directions of 2 and 3.
-  const std::vector<Point3> points = {{0, 0, -9}, {0, 0, 9}, {8, 0, 0}, {0, 8, 0}, {7, 7, 1}, {-7, 7, 1}, {16, 0, 2}};
-  const delaunay::Delaunay d = delaunay::build_delaunay(points);
-  const std::vector<std::array<std::uint32_t, 4>> tetrahedra = {{0, 1, 2, 3}};
-  const auto cutting = [&](const std::vector<std::uint32_t>& apexes) {
-    facets::FacetMesh facets;
-    for (const std::uint32_t apex : apexes) {
-      facets.triangles.push_back({VertexId(1), VertexId(apex), VertexId(0)});
-      facets.facet.emplace_back(0u);
-    }
-    return front::find_cutting_faces(facets, d, tetrahedra);
-  };
-  using Faces = std::vector<std::uint32_t>;
-  EXPECT_EQ(cutting({2, 3}), Faces());
-  EXPECT_EQ(cutting({5}), Faces());
-  EXPECT_EQ(cutting({6}), Faces());  // in the plane of a face of the tetrahedron
-  EXPECT_EQ(cutting({4}), Faces({0}));
-  EXPECT_EQ(cutting({5, 3, 4}), Faces({0, 1, 2}));
 }
 
 TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {

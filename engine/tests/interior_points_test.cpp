@@ -178,8 +178,12 @@ TEST(InteriorPoints, OnePointEndsExistenceForASolidOfFiveVertices) {
 
 /// Does the front finish, and are its tetrahedra locally Delaunay where two of them meet?
 bool finds_constrained_delaunay(const Protected& p) {
-  const front::FrontResult front = p.advance();
-  if (front.stuck) return false;
+  front::FrontResult front;
+  try {
+    front = p.advance();
+  } catch (const MeshError&) {
+    return false;
+  }
   for (const auto& s : front.tetrahedra)
     for (const auto& t : front.tetrahedra) {
       std::vector<std::uint32_t> others;

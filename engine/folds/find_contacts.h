@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_mesh.h"
+
+namespace ccdt::folds {
+
+/// A facet of the PLC is, or is a part of, a facet of the input.
+struct FacetOrigin {
+  FacetId facet;  ///< of the input
+  bool moved;     ///< its faces may be elsewhere than those of the input, by less than the tolerance
+};
+
+/// Exactly: the moved faces, ascending, that meet a face from another facet of the input in more than common vertices
+/// and edges. Since Delaunay faces never do, one of the two is missing in the tetrahedralization; since facets of the
+/// input never do, one of the two is moved.
+///
+/// \param origins  of the facets
+std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay,
+                                         const std::vector<FacetOrigin>& origins);
+
+}  // namespace ccdt::folds
