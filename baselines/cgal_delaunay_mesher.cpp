@@ -37,7 +37,7 @@ MesherRun run_cgal_delaunay(const InputPlc& input, const MeshOptions& options, c
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   MesherRun run;
-  run.result.seconds.delaunay = run.result.seconds.mesh = seconds;
+  run.result.costs[Stage::delaunay].seconds = run.result.costs.mesh_seconds = seconds;
   run.settings = settings_of_cgal_delaunay(input, options);
   run.notes = {"the Delaunay tetrahedralization of the vertices fills their convex hull and ignores facets"};
   TetMesh& mesh = run.result.mesh;

@@ -181,7 +181,7 @@ MesherRun run_cgal_mesh3(const InputPlc& input, const MeshOptions& options, cons
       CGAL::Random(random_seed);  // otherwise its seed is the time, and every mesh is different
   const auto begin = std::chrono::steady_clock::now();
   const Complex complex = refine(interfaces, sizes, is_improved(options));
-  run.result.seconds.mesh = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  run.result.costs.mesh_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 
   run.result.mesh = read_back(complex, plc);
   if (run.result.mesh.tetrahedra.empty())

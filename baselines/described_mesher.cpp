@@ -178,7 +178,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   run.settings = settings_of_described(description, input, options);
   const double wall_seconds = call_program(description, input, values, folder, log);
   const auto said = description.seconds_pattern.empty() ? std::nullopt : sum_in_log(log, description.seconds_pattern);
-  run.result.seconds.mesh = said.value_or(wall_seconds);
+  run.result.costs.mesh_seconds = said.value_or(wall_seconds);
   if (!said) run.notes.emplace_back("the seconds are those of the whole call, including start, reading and writing");
   run.result.mesh = read_output(description, input, fill_placeholders(description.output, values), folder, log);
   clean_up(given, run.result.mesh, run.notes);

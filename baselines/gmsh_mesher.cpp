@@ -171,8 +171,8 @@ MesherRun run_gmsh(const InputPlc& input, const MeshOptions& options, const Prog
     fail("Gmsh wrote no mesh", input.name, "try another mesher", FailureKind::wrong);
 
   // "tOptimize = 1.2" is a part of "Done meshing 3D (Wall 1.5s, ...", which covers HXT and the work of Gmsh around it.
-  run.result.seconds.improve = sum_in_log(file("log"), "tOptimize[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
-  run.result.seconds.mesh =
+  run.result.costs[Stage::improve].seconds = sum_in_log(file("log"), "tOptimize[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
+  run.result.costs.mesh_seconds =
       sum_in_log(file("log"), "Done (?:meshing 3D|optimizing mesh) [(]Wall[^0-9]*([0-9][0-9.e+-]*)").value_or(0);
   run.result.mesh = read_back(file("volume.msh"), model, plc);
   if (run.result.mesh.tetrahedra.empty())

@@ -260,7 +260,7 @@ MesherRun run_tetgen(const InputPlc& input, const MeshOptions& options, const Pr
 
   MesherRun run;
   run.settings = settings_of_tetgen(input, options);
-  run.result.seconds.mesh = output.seconds[0];
+  run.result.costs.mesh_seconds = output.seconds[0];
   TetMesh& mesh = run.result.mesh;
   mesh = std::move(output.mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);

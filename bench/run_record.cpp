@@ -93,22 +93,6 @@ namespace {
 constexpr DocumentKind run_document = {"ccdt.run/1", "not a report of schema ccdt.run/1",
                                        "give the JSON that `ccdt mesh --report` wrote"};
 
-constexpr auto stage(double StageSeconds::*seconds) {
-  return [seconds](auto& record) -> auto& {
-    return record.seconds.*seconds;
-  };
-}
-
-constexpr auto fields_of_seconds =
-    std::tuple(field("read", &RunRecord::read_seconds), optional_field("remesh", &RunRecord::remesh_seconds),
-               field("plc", stage(&StageSeconds::plc)), optional_field("refine", stage(&StageSeconds::refine)),
-               field("protect", stage(&StageSeconds::protect)), field("facets", stage(&StageSeconds::facets)),
-               field("lattice", stage(&StageSeconds::lattice)), field("delaunay", stage(&StageSeconds::delaunay)),
-               field("face_check", stage(&StageSeconds::face_check)), field("front", stage(&StageSeconds::front)),
-               field("label", stage(&StageSeconds::label)), field("finish", stage(&StageSeconds::finish)),
-               field("improve", stage(&StageSeconds::improve)), field("write", &RunRecord::write_seconds),
-               field("mesh", stage(&StageSeconds::mesh)));
-
 constexpr auto fields_before_seconds =
     std::tuple(optional_field("command", &RunRecord::command), field("environment", &RunRecord::environment),
                field("counts", &RunRecord::counts));
@@ -145,46 +129,53 @@ void read_options(const Json& json, RunRecord& record) {
   }
 }
 
+/// A number of each stage, by its name; without zeros, which are stages that were left out, if `only_positive`.
+template <class Number>
+Json stages_json(const StageCosts& costs, Number StageCost::*number, bool only_positive) {
+  Json json = Json::object();
+  for (const NamedValue<Stage>& stage : names_of(Stage{}))
+    if (const Number value = costs[stage.value].*number; !only_positive || value > 0)
+      json[std::string(stage.name)] = value;
+  return json;
+}
+
+template <class Number>
+void read_stages(const Json& json, Number StageCost::*number, StageCosts& costs) {
+  for (const NamedValue<Stage>& stage : names_of(Stage{}))
+    if (json.contains(stage.name)) json.at(std::string(stage.name)).get_to(costs[stage.value].*number);
+}
+
+Json seconds_json(const RunRecord& record) {
+  Json json = {{"read", record.read_seconds}};
+  json.update(stages_json(record.costs, &StageCost::seconds, false));
+  json["write"] = record.write_seconds;
+  json["mesh"] = record.costs.mesh_seconds;
+  return json;
+}
+
+void read_seconds(const Json& json, RunRecord& record) {
+  json.at("read").get_to(record.read_seconds);
+  read_stages(json, &StageCost::seconds, record.costs);
+  json.at("write").get_to(record.write_seconds);
+  json.at("mesh").get_to(record.costs.mesh_seconds);
+}
+
 /// Only counts that are not zero: most counts belong to one stage.
-void write_work(const char* stage, const Work& work, Json& json) {
-  for (const WorkCount& c : work_counts)
-    if (work.*c.count != 0) json[stage][c.name] = work.*c.count;
-}
-
-void read_work(const Json& json, const char* stage, Work& work) {
-  if (!json.contains(stage)) return;
-  const Json& counts = json.at(stage);
-  for (const WorkCount& c : work_counts)
-    if (counts.contains(c.name)) counts.at(c.name).get_to(work.*c.count);
-}
-
-Json work_json(const RunRecord& record) {
+Json work_json(const StageCosts& costs) {
   Json json = Json::object();
-  write_work("remesh", record.remesh_work, json);
-  for (const MeshStage& stage : mesh_stages) write_work(stage.name, record.work.*stage.work, json);
+  for (const NamedValue<Stage>& stage : names_of(Stage{}))
+    for (const WorkCount& c : work_counts)
+      if (const std::uint64_t count = costs[stage.value].work.*c.count; count != 0)
+        json[std::string(stage.name)][c.name] = count;
   return json;
 }
 
-void read_all_work(const Json& json, RunRecord& record) {
-  read_work(json, "remesh", record.remesh_work);
-  for (const MeshStage& stage : mesh_stages) read_work(json, stage.name, record.work.*stage.work);
-}
-
-/// Figures of stages that were not left out.
-template <class Figures, class Figure>
-Json stages_json(const Figures& figures, Figure MeshStage::*figure) {
-  Json json = Json::object();
-  for (const MeshStage& stage : mesh_stages)
-    if (figures.*(stage.*figure) != 0) json[stage.name] = figures.*(stage.*figure);
-  return json;
-}
-
-template <class Figures, class Figure>
-void read_stages(const Json& json, const char* name, Figure MeshStage::*figure, std::optional<Figures>& figures) {
-  if (!json.contains(name)) return;
-  figures.emplace();
-  for (const MeshStage& stage : mesh_stages)
-    if (json.at(name).contains(stage.name)) json.at(name).at(stage.name).get_to(*figures.*(stage.*figure));
+void read_work(const Json& json, StageCosts& costs) {
+  for (const NamedValue<Stage>& stage : names_of(Stage{})) {
+    const Json counts = json.value(stage.name, Json::object());
+    for (const WorkCount& c : work_counts)
+      if (counts.contains(c.name)) counts.at(c.name).get_to(costs[stage.value].work.*c.count);
+  }
 }
 
 Json json_of(const RunRecord& record) {
@@ -193,10 +184,12 @@ Json json_of(const RunRecord& record) {
                {"input", record.input},
                {"options", options_json(record)}};
   write_fields(record, fields_before_seconds, json);
-  if (Json work = work_json(record); !work.empty()) json["work"] = std::move(work);
-  write_fields(record, fields_of_seconds, json["seconds"]);
-  if (record.cpu_seconds) json["cpu_seconds"] = stages_json(*record.cpu_seconds, &MeshStage::seconds);
-  if (record.threads) json["threads"] = stages_json(*record.threads, &MeshStage::threads);
+  if (Json work = work_json(record.costs); !work.empty()) json["work"] = std::move(work);
+  json["seconds"] = seconds_json(record);
+  if (Json cpu_seconds = stages_json(record.costs, &StageCost::cpu_seconds, true); !cpu_seconds.empty())
+    json["cpu_seconds"] = std::move(cpu_seconds);
+  if (Json threads = stages_json(record.costs, &StageCost::threads, true); !threads.empty())
+    json["threads"] = std::move(threads);
   write_fields(record, fields_after_seconds, json);
   return json;
 }
@@ -207,10 +200,10 @@ RunRecord record_from(const Json& json) {
   json.at("input").get_to(record.input);
   read_options(json.at("options"), record);
   read_fields(json, fields_before_seconds, record);
-  if (json.contains("work")) read_all_work(json.at("work"), record);
-  read_fields(json.at("seconds"), fields_of_seconds, record);
-  read_stages(json, "cpu_seconds", &MeshStage::seconds, record.cpu_seconds);
-  read_stages(json, "threads", &MeshStage::threads, record.threads);
+  read_work(json.value("work", Json::object()), record.costs);
+  read_seconds(json.at("seconds"), record);
+  read_stages(json.value("cpu_seconds", Json::object()), &StageCost::cpu_seconds, record.costs);
+  read_stages(json.value("threads", Json::object()), &StageCost::threads, record.costs);
   read_fields(json, fields_after_seconds, record);
   return record;
 }

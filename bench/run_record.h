@@ -44,13 +44,8 @@ struct RunRecord {
   std::vector<std::string> command;  ///< the command, in the folder where it ran; empty if unknown
   Environment environment;
   MeshCounts counts;
-  StageSeconds seconds;
-  std::optional<StageSeconds> cpu_seconds;  ///< of ccdt
-  std::optional<StageThreads> threads;      ///< of ccdt
-  StageWork work;                           ///< of ccdt; all zero for other meshers and older programs
-  Work remesh_work;                         ///< of the surface; see `remesh_seconds`
+  StageCosts costs;  ///< zero where another mesher does not tell, or an older program did not
   double read_seconds = 0, write_seconds = 0;
-  double remesh_seconds = 0;  ///< of the surface, before the mesher got it; not in `seconds.mesh`
   std::uint64_t peak_rss_bytes = 0;
   Quality quality;
   std::string mesh_fingerprint;  ///< see bench/fingerprint.h; empty without a mesh

@@ -5,10 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/base/stopwatch.h"
+#include "engine/base/stage_scope.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
@@ -37,22 +36,19 @@
 namespace ccdt {
 namespace {
 
-/// What the stages cost.
-struct StageCosts {
-  StageSeconds seconds, cpu_seconds;
-  StageThreads threads;
-  StageWork work;
-};
+/// What the steps of a run share.
+struct Run {
+  MeshOptions options;
+  const Progress& progress;
+  StageCosts costs = {};
 
-/// Runs a stage, whose seconds and work are added to its costs.
-template <class Stage>
-auto measured(StageCosts& costs, const MeshStage& stage, const Stage& run) {
-  const Stopwatch watch(costs.seconds.*stage.seconds);
-  const CpuStopwatch cpu_watch(costs.cpu_seconds.*stage.seconds);
-  const ThreadScope thread_scope(costs.threads.*stage.threads);
-  const WorkScope scope(costs.work.*stage.work);
-  return run();
-}
+  /// Runs a step; its costs are those of the stage.
+  template <class Step>
+  auto measured(Stage stage, const Step& step) {
+    const StageScope scope(costs[stage]);
+    return step();
+  }
+};
 
 BackgroundSizes in_grid_units(BackgroundSizes background, const numbers::DyadicGrid& grid) {
   for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
@@ -181,41 +177,38 @@ front::FrontResult advance(const plc::Plc& plc, const facets::FacetMesh& facets,
 /// \param codes     of the faces of the facets, see `front::FrontInput`
 /// \return  why there is none, or why parts of it overlap
 std::optional<front::Stuck> fill_domain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets,
-                                        std::vector<std::uint32_t> codes, const MeshOptions& options,
-                                        const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
-  auto touching =
-      measured(costs, mesh_stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
+                                        std::vector<std::uint32_t> codes, Run& run, Tetrahedralization& t) {
+  auto touching = run.measured(Stage::face_check, [&] { return check_apart(t.plc, t.chains, facets, delaunay); });
   if (touching) return touching;
 
   front::FrontResult front =
-      measured(costs, mesh_stage::front, [&] { return advance(t.plc, facets, delaunay, options, progress, codes); });
+      run.measured(Stage::front, [&] { return advance(t.plc, facets, delaunay, run.options, run.progress, codes); });
   if (front.stuck) return front.stuck;
   t.counts.front_tetrahedra = front.tetrahedra.size();
   t.counts.front_faces = front.undelaunay_faces;
 
   label::CellLabels labels =
-      measured(costs, mesh_stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
+      run.measured(Stage::label, [&] { return label::label_cells(t.plc, delaunay, front.open, codes); });
   if (labels.stuck) return labels.stuck;
-  if (auto wrong =
-          measured(costs, mesh_stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
+  if (auto wrong = run.measured(Stage::finish, [&] { return mesh::check_front(t.plc, facets, delaunay, front); }))
     return wrong;
   std::optional<front::Stuck> cut =
-      measured(costs, mesh_stage::finish, [&] { return check_uncut(t.plc, facets, delaunay, front); });
+      run.measured(Stage::finish, [&] { return check_uncut(t.plc, facets, delaunay, front); });
   t.points = points_of(delaunay);
   // The next steps need the most memory.
   release(delaunay.vertices), release(delaunay.cell_at), release(codes);
-  mesh::CollectedMesh collected = measured(costs, mesh_stage::label, [&] {
+  mesh::CollectedMesh collected = run.measured(Stage::label, [&] {
     return mesh::collect_tetrahedra(t.plc, front, std::move(labels.regions), delaunay.cells, t.points.size());
   });
   front = {};
-  if (auto wrong = measured(costs, mesh_stage::finish,
-                            [&] { return mesh::check_volume(t.plc, facets, t.points, collected.mesh); }))
+  if (auto wrong =
+          run.measured(Stage::finish, [&] { return mesh::check_volume(t.plc, facets, t.points, collected.mesh); }))
     return wrong;
-  t.facet_of_face = measured(costs, mesh_stage::finish, [&] {
+  t.facet_of_face = run.measured(Stage::finish, [&] {
     return mesh::finish_mesh(t.plc, t.chains, t.points, cut ? facets : std::move(facets), collected);
   });
-  if (improves(options, t))
-    t.cells = measured(costs, mesh_stage::improve, [&] {
+  if (improves(run.options, t))
+    t.cells = run.measured(Stage::improve, [&] {
       return mesh::join_tetrahedra(collected.mesh, std::move(collected.sources), std::move(delaunay.cells));
     });
   t.mesh = std::move(collected.mesh);
@@ -243,9 +236,8 @@ std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::F
 /// enclose.
 ///
 /// \param delaunay  loses its cells and vertices
-void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const MeshOptions& options,
-               const Progress& progress, StageCosts& costs, Tetrahedralization& t) {
-  std::vector<std::uint32_t> codes = measured(costs, mesh_stage::face_check, [&] {
+void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, Run& run, Tetrahedralization& t) {
+  std::vector<std::uint32_t> codes = run.measured(Stage::face_check, [&] {
     std::vector<std::uint32_t> found = find_faces_again(t.plc, facets, delaunay);
     if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, found, facets))
       found = find_faces_again(t.plc, facets, delaunay);
@@ -258,7 +250,7 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const Me
   for (std::uint32_t i = 0; i < codes.size(); ++i)
     if (codes[i] == delaunay::no_neighbor) missing.push_back(i);
   t.counts.undelaunay_faces = missing.size();
-  t.stuck = fill_domain(delaunay, facets, std::move(codes), options, progress, costs, t);
+  t.stuck = fill_domain(delaunay, facets, std::move(codes), run, t);
   if (!t.stuck) return;
   if (t.stuck->faces.empty()) t.stuck->faces = std::move(missing);
   t.facets = std::move(facets);
@@ -268,17 +260,15 @@ void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, const Me
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
 /// tetrahedralization that grows by one vertex at a time, so this one is made by insertion whatever the method is. With
 /// another method, it serves only protection.
-std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3> points, const MeshOptions& options,
-                                                          const Progress& progress, StageCosts& costs) {
-  const bool stays = options.delaunay != DelaunayMethod::wrap;
-  return measured(costs, stays ? mesh_stage::delaunay : mesh_stage::protect,
-                  [&]() -> std::optional<delaunay::Delaunay> {
-                    try {
-                      return delaunay::build_delaunay(points, progress);
-                    } catch (const MeshError&) {
-                      return {};
-                    }
-                  });
+std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3> points, Run& run) {
+  const bool stays = run.options.delaunay != DelaunayMethod::wrap;
+  return run.measured(stays ? Stage::delaunay : Stage::protect, [&]() -> std::optional<delaunay::Delaunay> {
+    try {
+      return delaunay::build_delaunay(points, run.progress);
+    } catch (const MeshError&) {
+      return {};
+    }
+  });
 }
 
 /// An input on the grid, and the Delaunay tetrahedralization of its vertices if that was needed to check it.
@@ -287,36 +277,32 @@ struct CheckedInput {
   std::optional<delaunay::Delaunay> delaunay;
 };
 
-CheckedInput check_input(const InputPlc& input, const MeshOptions& options, const plc::Strictness& strictness,
-                         const Progress& progress, StageCosts& costs) {
-  const plc::PlcOptions flat{options.flatness, strictness};
-  plc::UncheckedPlc gathered = measured(costs, mesh_stage::plc, [&] { return plc::gather_plc(input, flat, progress); });
+CheckedInput check_input(const InputPlc& input, const plc::Strictness& strictness, Run& run) {
+  const plc::PlcOptions flat{run.options.flatness, strictness};
+  plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
   CheckedInput checked;
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
-  if (!options.refine_surface)
-    checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, options, progress, costs);
+  if (!run.options.refine_surface) checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, run);
   static_assert(plc::no_face == delaunay::no_neighbor);
   if (checked.delaunay)
-    gathered.triangles.faces = measured(costs, mesh_stage::plc, [&] {
-      return front::find_delaunay_faces(gathered.triangles.corners, *checked.delaunay);
-    });
+    gathered.triangles.faces = run.measured(
+        Stage::plc, [&] { return front::find_delaunay_faces(gathered.triangles.corners, *checked.delaunay); });
   checked.plc =
-      measured(costs, mesh_stage::plc, [&] { return plc::check_plc(input, std::move(gathered), flat, progress); });
+      run.measured(Stage::plc, [&] { return plc::check_plc(input, std::move(gathered), flat, run.progress); });
   return checked;
 }
 
 /// Gives the PLC the vertices of refinement.
 ///
 /// \return  all points: those of the PLC, then those on segments
-std::vector<Point3> refine_surface(const MeshOptions& options, const Progress& progress, StageCosts& costs,
-                                   Tetrahedralization& t) {
+std::vector<Point3> refine_surface(Run& run, Tetrahedralization& t) {
   const std::size_t vertices_before = t.plc.vertices.size();
-  refine::RefinedPlc refined = measured(costs, mesh_stage::refine, [&] {
+  refine::RefinedPlc refined = run.measured(Stage::refine, [&] {
     return refine::refine_plc(t.plc,
-                              {.edge_length = options.edge_length / t.plc.grid.unit,
-                               .grading = options.grading,
-                               .most_tetrahedra = options.thin_tetrahedra},
-                              progress);
+                              {.edge_length = run.options.edge_length / t.plc.grid.unit,
+                               .grading = run.options.grading,
+                               .most_tetrahedra = run.options.thin_tetrahedra},
+                              run.progress);
   });
   t.plc = std::move(refined.plc);
   t.chains = std::move(refined.chains);
@@ -328,28 +314,26 @@ std::vector<Point3> refine_surface(const MeshOptions& options, const Progress& p
 }
 
 /// All stages but improvement.
-Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& options, const retry::Remedies& remedies,
-                                  const Progress& progress, StageCosts& costs) {
+Tetrahedralization tetrahedralize(const InputPlc& input, const retry::Remedies& remedies, Run& run) {
   Tetrahedralization t;
-  CheckedInput checked = check_input(input, options, remedies.strictness, progress, costs);
+  CheckedInput checked = check_input(input, remedies.strictness, run);
   t.plc = std::move(checked.plc);
   std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
   if (!remedies.divided.empty()) {
-    if (!delaunay) delaunay = tetrahedralize_vertices(t.plc.vertices, options, progress, costs);
+    if (!delaunay) delaunay = tetrahedralize_vertices(t.plc.vertices, run);
     if (!delaunay) delaunay::refuse_flat_points();
-    measured(costs, mesh_stage::plc, [&] {
-      retry::divide_facets(*delaunay, remedies.divided, plc::tolerance_of(t.plc, options.flatness), t.plc);
+    run.measured(Stage::plc, [&] {
+      retry::divide_facets(*delaunay, remedies.divided, plc::tolerance_of(t.plc, run.options.flatness), t.plc);
     });
   }
-  if (options.refine_surface)
-    delaunay = tetrahedralize_vertices(refine_surface(options, progress, costs, t), options, progress, costs);
+  if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(least_size, run, t), run);
   if (!delaunay) delaunay::refuse_flat_points();
-  protection::ProtectedDelaunay surface = measured(costs, mesh_stage::protect, [&] {
+  protection::ProtectedDelaunay surface = run.measured(Stage::protect, [&] {
     return retry::split_pieces(
         t.plc,
         protection::protect_edges(t.plc, protection::unprotected(t.plc, *std::move(delaunay), std::move(t.chains)),
-                                  options.protection, progress),
-        remedies, options.protection, progress);
+                                  run.options.protection, run.progress),
+        remedies, run.options.protection, run.progress);
   });
   const auto count_steiner_vertices = [&] {
     t.first_interior = surface.delaunay.vertices.size();
@@ -360,18 +344,20 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
 
   facets::FacetMesh facets;
   const auto triangulate_facets = [&] {
-    facets = measured(costs, mesh_stage::facets,
-                      [&] { return facets::triangulate_facets(t.plc, surface.chains, surface.delaunay, progress); });
+    facets = run.measured(Stage::facets, [&] {
+      return facets::triangulate_facets(t.plc, surface.chains, surface.delaunay, run.progress);
+    });
   };
   triangulate_facets();
   lattice::LatticePoints lattice;
-  if (options.lattice != Lattice::none) {
-    measured(costs, mesh_stage::lattice, [&] {
-      lattice = place_points(t.plc, surface, facets, options, progress);
+  if (run.options.lattice != Lattice::none) {
+    run.measured(Stage::lattice, [&] {
+      lattice = place_points(t.plc, surface, facets, run.options, run.progress);
       t.counts.dropped_interior_vertices = lattice.points.size();
       const auto avoided =
-          options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
-      keep_only(protection::make_room(lattice.points, t.plc, options.protection, surface, avoided, progress), lattice);
+          run.options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
+      keep_only(protection::make_room(lattice.points, t.plc, run.options.protection, surface, avoided, run.progress),
+                lattice);
       t.counts.dropped_interior_vertices -= lattice.points.size();
     });
   }
@@ -380,21 +366,20 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const MeshOptions& opti
     triangulate_facets();
   }
   t.chains = std::move(surface.chains);
-  delaunay::Delaunay all = measured(costs, mesh_stage::delaunay, [&] {
-    return add_points(std::move(lattice), std::move(surface.delaunay), options, progress, t.counts);
+  delaunay::Delaunay all = run.measured(Stage::delaunay, [&] {
+    return add_points(std::move(lattice), std::move(surface.delaunay), run.options, run.progress, t.counts);
   });
   t.counts.interior_vertices = all.vertices.size() - t.first_interior;
 
-  constrain(all, facets, options, progress, costs, t);
+  constrain(all, facets, run, t);
   return t;
 }
 
 /// Tries remedies for as long as the vertices have no constrained Delaunay tetrahedralization. If none helps, a mesh
 /// whose parts overlap within the tolerance is better than none.
-Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const MeshOptions& options,
-                                                const Progress& progress, StageCosts& costs) {
+Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, Run& run) {
   retry::Remedies remedies;
-  Tetrahedralization t = tetrahedralize(input, options, remedies, progress, costs);
+  Tetrahedralization t = tetrahedralize(input, remedies, run);
   std::optional<Tetrahedralization> overlapping;
   const auto keep_overlapping = [&] {
     if (!overlapping && !t.mesh.tetrahedra.empty()) overlapping = std::move(t);
@@ -406,7 +391,7 @@ Tetrahedralization tetrahedralize_with_remedies(const InputPlc& input, const Mes
       throw MeshError(t.stuck->error);
     }
     try {
-      Tetrahedralization next = tetrahedralize(input, options, remedies, progress, costs);
+      Tetrahedralization next = tetrahedralize(input, remedies, run);
       keep_overlapping();
       t = std::move(next);
     } catch (const LimitError&) {  // the new segments are too close to others
@@ -436,13 +421,12 @@ Improvement improvement_of(const MeshOptions& options) {
 namespace {
 
 MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  StageCosts costs;
-  const auto triangulated = measured(costs, mesh_stage::plc, [&] { return plc::triangulate_bent_facets(input); });
+  Run run{options, progress};
+  const auto triangulated = run.measured(Stage::plc, [&] { return plc::triangulate_bent_facets(input); });
   const InputPlc& flat = triangulated ? *triangulated : input;
-  MeshOptions used = options;
-  used.edge_length = edge_length_of(options, flat);
-  if (used.refine_surface) plc::check_edges_of_surface(flat, used.edge_length);
-  Tetrahedralization t = tetrahedralize_with_remedies(flat, used, progress, costs);
+  run.options.edge_length = edge_length_of(options, flat);
+  if (options.refine_surface) plc::check_edges_of_surface(flat, run.options.edge_length);
+  Tetrahedralization t = tetrahedralize_with_remedies(flat, run);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
@@ -451,9 +435,8 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
         t.plc, t.chains, std::move(t.cells), std::move(t.facet_of_face), first_steiner_vertex(t), t.first_interior};
     const std::size_t faces_before = t.mesh.faces.size();
     mesh.first_sliding = t.plc.vertices.size() - t.counts.refined_in_facets;
-    t.counts.improve = measured(costs, mesh_stage::improve, [&] {
-      return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress);
-    });
+    t.counts.improve = run.measured(
+        Stage::improve, [&] { return improve::improve_mesh(std::move(mesh), improve, t.points, t.mesh, progress); });
     const std::uint64_t removed = t.counts.improve.removed_steiner_vertices;
     t.counts.steiner_vertices -= removed;
     t.counts.faces -= faces_before - t.mesh.faces.size();
@@ -465,16 +448,14 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
     if (!mesh::is_face_to_face(t.mesh)) throw MeshError(t.stuck->error);
     t.counts.cutting_faces = t.stuck->faces.size();
   }
-  t.mesh.vertices =
-      measured(costs, mesh_stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
+  t.mesh.vertices = run.measured(Stage::finish, [&] { return mesh::to_world(t.plc, t.points, t.mesh.tetrahedra); });
   if (const auto attribute = mesh::common_attribute(t.plc.regions))
     t.mesh.regions.assign(t.mesh.tetrahedra.size(), *attribute);
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
-  for (StageSeconds* seconds : {&costs.seconds, &costs.cpu_seconds})
-    for (const MeshStage& stage : mesh_stages) seconds->mesh += seconds->*stage.seconds;
-  return {std::move(t.mesh), std::move(t.counts), costs.seconds,          costs.cpu_seconds,
-          costs.threads,     costs.work,          t.plc.largest_rounding, t.plc.idle_holes.size()};
+  for (const StageCost& cost : run.costs.stages) run.costs.mesh_seconds += cost.seconds;
+  return {std::move(t.mesh), std::move(t.counts), std::move(run.costs), t.plc.largest_rounding,
+          t.plc.idle_holes.size()};
 }
 
 }  // namespace

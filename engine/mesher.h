@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "engine/base/flatness.h"
 #include "engine/base/progress.h"
-#include "engine/base/work.h"
+#include "engine/base/stages.h"
 #include "engine/delaunay/options.h"
 #include "engine/front/options.h"
 #include "engine/front/segment_counts.h"
@@ -65,54 +65,6 @@ struct MeshOptions {
   BackgroundSizes background = {};
 };
 
-/// Wall-clock seconds of each stage; names as in the `ccdt.run/1` schema.
-struct StageSeconds {
-  double plc = 0, refine = 0, protect = 0, facets = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0, label = 0,
-         finish = 0, improve = 0;
-  double mesh = 0;  ///< meshing alone: all of the above
-};
-
-/// The most threads that worked at the same time in each stage; 0: the stage was left out.
-struct StageThreads {
-  unsigned plc = 0, refine = 0, protect = 0, facets = 0, lattice = 0, delaunay = 0, face_check = 0, front = 0,
-           label = 0, finish = 0, improve = 0;
-};
-
-/// The work of each stage; names as in the `ccdt.run/1` schema.
-struct StageWork {
-  Work plc, refine, protect, facets, lattice, delaunay, face_check, front, label, finish, improve;
-};
-
-/// A stage of meshing, by its name, its time, its threads and its work.
-struct MeshStage {
-  const char* name;
-  double StageSeconds::*seconds;
-  unsigned StageThreads::*threads;
-  Work StageWork::*work;
-};
-
-namespace mesh_stage {
-inline constexpr MeshStage plc = {"plc", &StageSeconds::plc, &StageThreads::plc, &StageWork::plc};
-inline constexpr MeshStage refine = {"refine", &StageSeconds::refine, &StageThreads::refine, &StageWork::refine};
-inline constexpr MeshStage protect = {"protect", &StageSeconds::protect, &StageThreads::protect, &StageWork::protect};
-inline constexpr MeshStage facets = {"facets", &StageSeconds::facets, &StageThreads::facets, &StageWork::facets};
-inline constexpr MeshStage lattice = {"lattice", &StageSeconds::lattice, &StageThreads::lattice, &StageWork::lattice};
-inline constexpr MeshStage delaunay = {"delaunay", &StageSeconds::delaunay, &StageThreads::delaunay,
-                                       &StageWork::delaunay};
-inline constexpr MeshStage face_check = {"face_check", &StageSeconds::face_check, &StageThreads::face_check,
-                                         &StageWork::face_check};
-inline constexpr MeshStage front = {"front", &StageSeconds::front, &StageThreads::front, &StageWork::front};
-inline constexpr MeshStage label = {"label", &StageSeconds::label, &StageThreads::label, &StageWork::label};
-inline constexpr MeshStage finish = {"finish", &StageSeconds::finish, &StageThreads::finish, &StageWork::finish};
-inline constexpr MeshStage improve = {"improve", &StageSeconds::improve, &StageThreads::improve, &StageWork::improve};
-}  // namespace mesh_stage
-
-/// All stages, in their order.
-inline constexpr std::array mesh_stages = {mesh_stage::plc,        mesh_stage::refine,  mesh_stage::protect,
-                                           mesh_stage::facets,     mesh_stage::lattice, mesh_stage::delaunay,
-                                           mesh_stage::face_check, mesh_stage::front,   mesh_stage::label,
-                                           mesh_stage::finish,     mesh_stage::improve};
-
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh
   std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
@@ -138,10 +90,7 @@ struct MeshCounts {
 struct MeshResult {
   TetMesh mesh;
   MeshCounts counts;
-  StageSeconds seconds;      ///< wall-clock
-  StageSeconds cpu_seconds;  ///< of all threads of the process together
-  StageThreads threads;
-  StageWork work;
+  StageCosts costs;
   double largest_rounding = 0;   ///< largest change of an input coordinate, in the units of the input
   std::uint64_t idle_holes = 0;  ///< seeds of holes where nothing is enclosed; they were not used
 };

@@ -7,6 +7,7 @@ set(public_headers
   base/point.h
   base/portable_math.h
   base/progress.h
+  base/stages.h
   base/work.h
   delaunay/options.h
   front/options.h

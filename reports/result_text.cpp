@@ -146,7 +146,7 @@ std::string how_measured(const results::Circumstances& how) {
 
 /// Of the remeshed surface and its mesh.
 double all_seconds(const bench::RunRecord& r) {
-  return r.remesh_seconds + r.seconds.mesh;
+  return r.costs[Stage::remesh].seconds + r.costs.mesh_seconds;
 }
 
 std::string stages(const bench::RunRecord& r) {
@@ -157,8 +157,7 @@ std::string stages(const bench::RunRecord& r) {
     std::ranges::replace(name, '_', ' ');
     text += (text.empty() ? "" : ", ") + name + " " + rounded(seconds, 2);
   };
-  add("remesh", r.remesh_seconds);
-  for (const MeshStage& stage : mesh_stages) add(stage.name, r.seconds.*stage.seconds);
+  for (const auto& stage : names_of(Stage{})) add(std::string(stage.name), r.costs[stage.value].seconds);
   return text.empty() ? "" : " (" + text + ")";
 }
 

@@ -13,10 +13,10 @@
 #include "bench/results/numbers.h"
 #include "bench/run_record.h"
 #include "bench/surface_limit.h"
-#include "engine/base/count_work.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/stage_scope.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
@@ -161,8 +161,7 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
 /// The surface with edges of the wanted length; any mesher may use it.
 InputPlc remeshed(const MeshCommand& command, const InputPlc& input, double edge_length, const Progress& progress,
                   bench::RunRecord& record) {
-  const Stopwatch watch(record.remesh_seconds);
-  const WorkScope scope(record.remesh_work);
+  const StageScope scope(record.costs[Stage::remesh]);
   InputPlc surface = surface::remesh_surface(
       input, {.edge_length = edge_length, .sharp_angle = command.sharp_angle, .flatness = command.options.flatness},
       progress);
@@ -198,19 +197,15 @@ void leave_provisional_record(const MeshCommand& command, const bench::RunRecord
 /// Adds the result of a mesher, and measures of its mesh.
 void record_result(const MeshCommand& command, const MeshOptions& options, const baselines::MesherRun& run,
                    bench::RunRecord& record) {
-  const bool is_ccdt = record.mesher.name == "ccdt";
   const MeshResult& result = run.result;
   record.counts = result.counts;
-  record.seconds = result.seconds;
-  if (is_ccdt) {
-    record.cpu_seconds = result.cpu_seconds;
-    record.threads = result.threads;
-  }
-  record.work = result.work;
+  const StageCost remeshing = record.costs[Stage::remesh];
+  record.costs = result.costs;
+  record.costs[Stage::remesh] = remeshing;
   record.largest_rounding = result.largest_rounding;
   record.mesher_settings = run.settings;
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
-  if (!options.background.empty() && !is_ccdt)
+  if (!options.background.empty() && record.mesher.name != "ccdt")
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(result.mesh);
   if (command.surface == Surface::keep && improvement_of(options) != Improvement::none &&

@@ -98,10 +98,10 @@ TEST_F(ScriptMesher, FindsItsFilesAndItsEnvironment) {
 
 TEST_F(ScriptMesher, TakesTheSecondsFromTheLogOrSaysThatItCannot) {
   description_.seconds_pattern = "^(?!read).* in ([0-9.]+) s";
-  EXPECT_EQ(run().result.seconds.mesh, 0.75);
+  EXPECT_EQ(run().result.costs.mesh_seconds, 0.75);
   EXPECT_TRUE(run().notes.empty());
   description_.seconds_pattern = "took ([0-9.]+) s";
-  EXPECT_GT(run().result.seconds.mesh, 0);
+  EXPECT_GT(run().result.costs.mesh_seconds, 0);
   EXPECT_EQ(run().notes.size(), 1u);
 }
 

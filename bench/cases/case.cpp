@@ -38,7 +38,7 @@ bool needs_run(const MeasuredCase& measured) {
   const Repetitions& repetitions = measured.asked.repetitions;
   if (measured.failed()) return false;
   if (measured.runs < repetitions.warm_up) return true;
-  const std::vector<double> seconds = samples_of(measured, &StageSeconds::mesh);
+  const std::vector<double> seconds = samples_of(measured, &StageCosts::mesh_seconds);
   return !are_enough(repetitions, samples_of(measured, measured.asked.seconds),
                      std::accumulate(seconds.begin(), seconds.end(), 0.0));
 }
@@ -71,7 +71,7 @@ std::string mesh_file(const MeasuredCase& measured) {
 
 std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& seconds) {
   std::vector<double> samples;
-  for (const RunRecord& run : measured.counted) samples.push_back(seconds(run.seconds));
+  for (const RunRecord& run : measured.counted) samples.push_back(seconds(run.costs));
   return samples;
 }
 

@@ -35,7 +35,7 @@ std::vector<int> looks_of(const Repetitions& repetitions);
 bool are_enough(const Repetitions& repetitions, std::span<const double> samples, double mesh_seconds);
 
 /// The quantity of a run that is measured: seconds of one stage, of several, or of all.
-using SecondsOf = std::function<double(const StageSeconds&)>;
+using SecondsOf = std::function<double(const StageCosts&)>;
 
 /// One mesher on one input with one set of options.
 struct Case {
@@ -48,7 +48,7 @@ struct Case {
   bool verify = false;                    ///< check each mesh exactly against its input
   std::string mesh_ending = {};  ///< keep the mesh of the last run, as meshes/ID and this; empty: no mesh is kept
   Repetitions repetitions = {};
-  SecondsOf seconds = &StageSeconds::mesh;  ///< the quantity to which `repetitions.until` applies
+  SecondsOf seconds = &StageCosts::mesh_seconds;  ///< the quantity to which `repetitions.until` applies
 };
 
 /// A case with the records of its runs.

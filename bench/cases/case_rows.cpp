@@ -16,12 +16,19 @@ using results::figure_column;
 using results::label_column;
 using results::note_column;
 using results::time_column;
-double cdt_seconds(const StageSeconds& s) {
-  return s.delaunay + s.face_check + s.front + s.label;
+double cdt_seconds(const StageCosts& costs) {
+  double sum = 0;
+  for (const Stage stage : {Stage::delaunay, Stage::face_check, Stage::front, Stage::label})
+    sum += costs[stage].seconds;
+  return sum;
 }
 
-double whole_seconds(const StageSeconds& s) {
-  return s.mesh;
+double whole_seconds(const StageCosts& costs) {
+  return costs.mesh_seconds;
+}
+
+SecondsOf stage_seconds(Stage stage) {
+  return [stage](const StageCosts& costs) { return costs[stage].seconds; };
 }
 
 std::vector<std::string> runs_of(const CaseRow& row) {

@@ -24,8 +24,9 @@ using results::RowColumn;
 /// @{
 /// The seconds of the constrained Delaunay tetrahedralization of given vertices, as in the paper: Delaunay, face check,
 /// front and labeling.
-double cdt_seconds(const StageSeconds& seconds);
-double whole_seconds(const StageSeconds& seconds);
+double cdt_seconds(const StageCosts& costs);
+double whole_seconds(const StageCosts& costs);
+SecondsOf stage_seconds(Stage stage);
 /// @}
 
 /// A row of a table: a case, and which of its seconds are meant. Rows with more contents derive from it.

@@ -67,7 +67,7 @@ constexpr std::array<FrontWork, 3> front_works = {{{"candidates", &Work::front_c
                                                    {"grid cells", &Work::grid_cells, false}}};
 
 double work_of(const DensityRow& row, const FrontWork& work) {
-  return static_cast<double>(row.measured.first.work.front.*work.count);
+  return static_cast<double>(row.measured.first.costs[Stage::front].work.*work.count);
 }
 double tetrahedra_of(const DensityRow& row) {
   return static_cast<double>(row.measured.first.counts.front_tetrahedra);

@@ -89,7 +89,7 @@ cases::Case timed_case(const ExperimentOptions& options, std::string group, cons
 }
 
 bool is_short(const ExperimentOptions& options, const cases::MeasuredCase& first) {
-  return !first.failed() && options.runs * first.first.seconds.mesh <= budget(options);
+  return !first.failed() && options.runs * first.first.costs.mesh_seconds <= budget(options);
 }
 
 std::string short_case_words(const ExperimentOptions& options) {

@@ -37,6 +37,7 @@ using cases::measure_rows;
 using cases::reason_column;
 using cases::run_column;
 using cases::seconds_column;
+using cases::stage_seconds;
 using cases::status_column;
 using cases::whole_seconds;
 using results::add_row;

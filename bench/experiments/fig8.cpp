@@ -88,11 +88,12 @@ Quantity time_of(std::string name, cases::SecondsOf seconds, const char* over = 
       size};
 }
 
-Quantity work_of(std::string name, Work StageWork::*stage, std::uint64_t Work::*count, const char* over = "vertices",
+Quantity work_of(std::string name, Stage stage, std::uint64_t Work::*count, const char* over = "vertices",
                  std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
-  return {std::move(name), of_work.c_str(), over,
-          [stage, count](const cases::MeasuredCase& m) { return static_cast<double>(m.first.work.*stage.*count); },
-          size};
+  return {
+      std::move(name), of_work.c_str(), over,
+      [stage, count](const cases::MeasuredCase& m) { return static_cast<double>(m.first.costs[stage].work.*count); },
+      size};
 }
 
 /// What is fitted of our runs. A stage that did nothing has no fit.
@@ -100,16 +101,16 @@ std::vector<Quantity> quantities_of(const Fig8Row& row) {
   if (row.measured.asked.mesher != "ccdt" || row.strategy.starts_with("Delaunay refinement"))
     return {time_of("mesh", row.seconds)};
   const char* const per = "front tetrahedra";
-  std::vector<Quantity> all = {time_of("cdt", row.seconds), time_of("delaunay", &StageSeconds::delaunay),
-                               time_of("front", &StageSeconds::front, per, &MeshCounts::front_tetrahedra)};
+  std::vector<Quantity> all = {time_of("cdt", row.seconds), time_of("delaunay", stage_seconds(Stage::delaunay)),
+                               time_of("front", stage_seconds(Stage::front), per, &MeshCounts::front_tetrahedra)};
   for (const auto& [name, count] : {std::pair("Delaunay: vertices examined", &Work::vertices_examined),
                                     {"Delaunay: grid cells", &Work::grid_cells},
                                     {"Delaunay: cells created", &Work::cells_created}})
-    all.push_back(work_of(name, &StageWork::delaunay, count));
+    all.push_back(work_of(name, Stage::delaunay, count));
   for (const auto& [name, count] : {std::pair("front: candidates", &Work::front_candidates),
                                     {"front: visibility tests", &Work::visibility_tests},
                                     {"front: grid cells", &Work::grid_cells}})
-    all.push_back(work_of(name, &StageWork::front, count, per, &MeshCounts::front_tetrahedra));
+    all.push_back(work_of(name, Stage::front, count, per, &MeshCounts::front_tetrahedra));
   return all;
 }
 

@@ -89,8 +89,11 @@ std::optional<std::string> finding_of(const LocatorsRow& row, const Estimate& oc
 
 void add_group(const ExperimentOptions& options, const SurfaceFile& surface, SurfaceKind kind, bool face_protection,
                std::vector<LocatorsRow>& rows) {
-  LocatorsRow row{
-      {{}, &StageSeconds::front}, surface.name, kind, face_protection, bench::edge_ratio(io::read_plc(surface.file))};
+  LocatorsRow row{{{}, stage_seconds(Stage::front)},
+                  surface.name,
+                  kind,
+                  face_protection,
+                  bench::edge_ratio(io::read_plc(surface.file))};
   const std::string check = check_words(row), name = surface.name + ", check " + check;
   for (const LocatorKind locator : locators) {
     row.locator = locator;

@@ -176,7 +176,7 @@ RowColumns<QualityRow> label_columns(const StudyPlan& plan) {
 }
 
 Cell improve_seconds_cell(const QualityRow& row) {
-  return row.ok() ? Cell(bench::median(samples_of(row.measured, &StageSeconds::improve))) : Cell();
+  return row.ok() ? Cell(bench::median(samples_of(row.measured, stage_seconds(Stage::improve)))) : Cell();
 }
 
 /// Million tetrahedra per second, if the clock could measure it.

@@ -44,10 +44,10 @@ const std::string delaunay = "Delaunay", with_check = "CDT with face protection 
                   default_delaunay = "default: Delaunay", default_with_check = "default: CDT with check",
                   searched = "default: every apex searched for", looked_up = "default: every apex looked up",
                   cgal = "CGAL Delaunay, same vertices", tetgen = "TetGen CDT, same vertices";
-const std::vector<Timed> all_timed = {{delaunay, "with_check", &StageSeconds::delaunay, &PaperTimes::delaunay},
+const std::vector<Timed> all_timed = {{delaunay, "with_check", stage_seconds(Stage::delaunay), &PaperTimes::delaunay},
                                       {with_check, "with_check", cdt_seconds, &PaperTimes::with_check},
                                       {without_check, "without_check", cdt_seconds, &PaperTimes::without_check},
-                                      {default_delaunay, "default_with_check", &StageSeconds::delaunay},
+                                      {default_delaunay, "default_with_check", stage_seconds(Stage::delaunay)},
                                       {default_with_check, "default_with_check", cdt_seconds},
                                       {searched, "searched", cdt_seconds},
                                       {looked_up, "looked_up", cdt_seconds},
@@ -148,21 +148,21 @@ const RowColumns<ModelRow> size_columns = {
 struct WorkRow : CaseRow {
   std::string model, way;
 
-  double per(Work StageWork::*stage, std::uint64_t Work::*count, std::uint64_t MeshCounts::*unit) const {
+  double per(Stage stage, std::uint64_t Work::*count, std::uint64_t MeshCounts::*unit) const {
     const RunRecord& run = measured.first;
-    return static_cast<double>(run.work.*stage.*count) / static_cast<double>(run.counts.*unit);
+    return static_cast<double>(run.costs[stage].work.*count) / static_cast<double>(run.counts.*unit);
   }
 };
 
 RowColumn<WorkRow> delaunay_column(const char* name, const char* title, std::uint64_t Work::*count) {
   return {figure_column(name, title),
-          [count](const WorkRow& row) { return row.per(&StageWork::delaunay, count, &MeshCounts::vertices); }};
+          [count](const WorkRow& row) { return row.per(Stage::delaunay, count, &MeshCounts::vertices); }};
 }
 /// Empty if the front did nothing.
 RowColumn<WorkRow> front_column(const char* name, const char* title, std::uint64_t Work::*count) {
   return {figure_column(name, title), [count](const WorkRow& row) {
             return cell_if(row.measured.first.counts.front_tetrahedra > 0,
-                           row.per(&StageWork::front, count, &MeshCounts::front_tetrahedra));
+                           row.per(Stage::front, count, &MeshCounts::front_tetrahedra));
           }};
 }
 const RowColumns<WorkRow> work_columns = {
@@ -191,14 +191,14 @@ double cost(const cases::MeasuredCase& measured, const cases::SecondsOf& seconds
   return 1e6 * bench::median(samples_of(measured, seconds)) / static_cast<double>(measured.first.counts.*unit);
 }
 double delaunay_cost(const ModelRow& row) {
-  return cost(row.measured, &StageSeconds::delaunay, &MeshCounts::vertices);
+  return cost(row.measured, stage_seconds(Stage::delaunay), &MeshCounts::vertices);
 }
 double check_cost(const ModelRow& row) {
-  const auto check = [](const StageSeconds& s) { return cdt_seconds(s) - s.delaunay; };
+  const auto check = [](const StageCosts& costs) { return cdt_seconds(costs) - costs[Stage::delaunay].seconds; };
   return cost(row.measured, check, &MeshCounts::vertices);
 }
 double front_cost(const ModelRow& row) {  // without the check, the front builds every tetrahedron
-  return cost(row.without_check, &StageSeconds::front, &MeshCounts::front_tetrahedra);
+  return cost(row.without_check, stage_seconds(Stage::front), &MeshCounts::front_tetrahedra);
 }
 const RowColumns<ModelRow> cost_columns = {
     {label_column("model"), &ModelRow::model},
@@ -222,7 +222,7 @@ std::vector<TimedRow> timed_rows(const Table1Model& model) {
 std::optional<Estimate> divided(const TimedRow& above, const TimedRow& below) {
   if (above.timed.way != below.timed.way) return ratio_of(above, below);
   if (!above.ok()) return {};
-  const auto in_a_run = [&](const StageSeconds& s) { return above.seconds(s) / below.seconds(s); };
+  const auto in_a_run = [&](const StageCosts& costs) { return above.seconds(costs) / below.seconds(costs); };
   return median_of(above.measured, in_a_run);
 }
 
@@ -250,7 +250,7 @@ void add_missing_work(const ModelRow& row, const RatioRow& saving, std::vector<s
   const double delaunay_us = delaunay_cost(row), front_us = front_cost(row);
   const double with_us = vertices * (delaunay_us + check_cost(row));
   const double needed_us = (*saving.paper * with_us - vertices * delaunay_us) / tetrahedra;
-  const Work& work = row.without_check.first.work.front;
+  const Work& work = row.without_check.first.costs[Stage::front].work;
   const auto per = [&](std::uint64_t count) { return rounded(static_cast<double>(count) / tetrahedra); };
   lines.push_back(row.model + ": without the check, the front takes " + rounded(front_us) +
                   " microseconds per tetrahedron, for " + per(work.front_candidates) + " candidates, " +

@@ -45,7 +45,7 @@ const RowColumns<VisibilityCostRow> columns = {
     {label_column("status"), counted_status},
     count_column("front_tetrahedra", &MeshCounts::front_tetrahedra, "tetrahedra of the front"),
     run_column(figure_column("tests", "visibility tests"),
-               [](const RunRecord& run) { return as_cell(run.work.front.visibility_tests); }),
+               [](const RunRecord& run) { return as_cell(run.costs[Stage::front].work.visibility_tests); }),
     count_of("visibility", "instructions: visibility tests", [](const auto& i) { return i.visibility_tests; }),
     count_of("rest_of_front", "rest of the front", [](const auto& i) { return i.front - i.visibility_tests; }),
     count_of("delaunay", "Delaunay", [](const auto& i) { return i.delaunay; }),

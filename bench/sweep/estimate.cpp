@@ -57,7 +57,7 @@ struct Neighbors {
 };
 
 double seconds_of(const cases::RunRecord& record) {
-  return record.read_seconds + record.remesh_seconds + record.seconds.mesh + record.write_seconds;
+  return record.read_seconds + record.costs[Stage::remesh].seconds + record.costs.mesh_seconds + record.write_seconds;
 }
 
 void add_case(Neighbors& neighbors, double tetrahedra, const cases::MeasuredCase& measured) {

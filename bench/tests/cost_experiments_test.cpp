@@ -39,9 +39,9 @@ cases::MeasuredCase front_run(double tetrahedra, double candidates, double visib
   bench::RunRecord record;
   record.mesher.name = "ccdt";
   record.counts.front_tetrahedra = record.counts.tetrahedra = static_cast<std::uint64_t>(tetrahedra);
-  record.work.front.front_candidates = static_cast<std::uint64_t>(candidates);
-  record.work.front.visibility_tests = static_cast<std::uint64_t>(visibility_tests);
-  record.work.front.grid_cells = record.counts.tetrahedra;
+  record.costs[Stage::front].work.front_candidates = static_cast<std::uint64_t>(candidates);
+  record.costs[Stage::front].work.visibility_tests = static_cast<std::uint64_t>(visibility_tests);
+  record.costs[Stage::front].work.grid_cells = record.counts.tetrahedra;
   add_run(measured, record);
   return measured;
 }

@@ -24,11 +24,11 @@ bench::RunRecord example_record() {
   record.environment.libraries = {{"tetgen", "1.5.0"}};
   record.counts = {10, 3, 1, 30, 12, 2, 3, {2, 1}, 4};
   record.counts.segments = {18, 7, 12, 2, 5, 4};
-  record.seconds.delaunay = 0.5;
-  record.seconds.mesh = 0.75;
-  record.work.delaunay.cells_created = 17;
-  record.work.delaunay.largest_cavity = 9;
-  record.remesh_work.exact_evaluations = 3;
+  record.costs[Stage::delaunay].seconds = 0.5;
+  record.costs.mesh_seconds = 0.75;
+  record.costs[Stage::delaunay].work.cells_created = 17;
+  record.costs[Stage::delaunay].work.largest_cavity = 9;
+  record.costs[Stage::remesh].work.exact_evaluations = 3;
   record.read_seconds = 0.125;
   record.peak_rss_bytes = 1 << 20;
   record.quality.r = {1, 1.5, 1.25, 3, std::numeric_limits<double>::infinity(), {{1, 2, 3}, {29, 1}}};
@@ -142,18 +142,17 @@ TEST(RunRecord, HasTheWorkOfEachStageThatIsNotZero) {
   EXPECT_EQ(json["work"], Json::parse(R"({"delaunay": {"cells_created": 17, "largest_cavity": 9},
                                           "remesh": {"exact_evaluations": 3}})"));
   const bench::RunRecord back = bench::run_record_from_json(json.dump());
-  EXPECT_EQ(back.work.delaunay, record.work.delaunay);
-  EXPECT_EQ(back.work.front, Work());
-  EXPECT_EQ(back.remesh_work, record.remesh_work);
+  EXPECT_EQ(back.costs[Stage::delaunay].work, record.costs[Stage::delaunay].work);
+  EXPECT_EQ(back.costs[Stage::front].work, Work());
+  EXPECT_EQ(back.costs[Stage::remesh].work, record.costs[Stage::remesh].work);
 }
 
 TEST(RunRecord, OfOtherMeshersHasNoWork) {
   bench::RunRecord record = example_record();
-  record.work = {};
-  record.remesh_work = {};
+  record.costs = {};
   const Json json = Json::parse(bench::to_json(record));
   EXPECT_FALSE(json.contains("work"));
-  EXPECT_EQ(bench::run_record_from_json(json.dump()).work.delaunay, Work());
+  EXPECT_EQ(bench::run_record_from_json(json.dump()).costs[Stage::delaunay].work, Work());
 }
 
 TEST(RunRecord, OfOlderProgramsMayLackTheRatiosOfOtherTools) {

@@ -81,8 +81,8 @@ constexpr Repetitions three_after_one = {.warm_up = 1, .at_least = 3, .at_most =
 TEST_F(RunnerTest, RunsACaseAsOftenAsItAsks) {
   const MeasuredCase measured = runner().run(case_of("a", "1\n2\n3\n4\n", three_after_one));
   EXPECT_EQ(measured.runs, 4);
-  EXPECT_EQ(samples_of(measured, &StageSeconds::mesh), (std::vector<double>{2, 3, 4}));
-  EXPECT_EQ(measured.first.seconds.mesh, 1);
+  EXPECT_EQ(samples_of(measured, &StageCosts::mesh_seconds), (std::vector<double>{2, 3, 4}));
+  EXPECT_EQ(measured.first.costs.mesh_seconds, 1);
   EXPECT_EQ(run_files(measured),
             (std::vector<std::string>{run_file(measured.id, 1), run_file(measured.id, 2), run_file(measured.id, 3)}));
   for (int number = 0; number < 4; ++number) EXPECT_EQ(bench::read_run_record(file(measured, number)).number, number);
@@ -229,7 +229,7 @@ TEST_F(RunnerTest, RepeatsUntilTheIntervalIsNarrow) {
   EXPECT_EQ(one.uncertain_cases(), std::set<std::string>{"wide"});
   EXPECT_EQ(measured[0].counted.size(), 6);
   EXPECT_EQ(measured[1].counted.size(), 20);
-  EXPECT_GT(bench::relative_spread(median_of(measured[1], &StageSeconds::mesh)), 0.1);
+  EXPECT_GT(bench::relative_spread(median_of(measured[1], &StageCosts::mesh_seconds)), 0.1);
 }
 
 TEST_F(RunnerTest, CountsSixRunsBeforeItStops) {
@@ -265,7 +265,7 @@ TEST(RunsLeft, AreThoseUntilTheNextLookAndTheLast) {
   };
   const auto run_until = [&](int runs) {
     while (measured.runs < runs) {
-      record.seconds.mesh = 1 + measured.runs % 3;
+      record.costs.mesh_seconds = 1 + measured.runs % 3;
       add_run(measured, record);
     }
   };
@@ -283,7 +283,8 @@ TEST_F(RunnerTest, SeveralJobsMakeTheSameRecords) {
   for (int i = 0; i < 20; ++i) all.push_back(case_of("case" + std::to_string(i), std::to_string(i + 1) + "\n"));
   const std::vector<MeasuredCase> measured = runner({.jobs = 4}).run(all);
   for (int i = 0; i < 20; ++i)
-    EXPECT_EQ(samples_of(measured[static_cast<std::size_t>(i)], &StageSeconds::mesh), std::vector<double>{i + 1.0});
+    EXPECT_EQ(samples_of(measured[static_cast<std::size_t>(i)], &StageCosts::mesh_seconds),
+              std::vector<double>{i + 1.0});
   EXPECT_EQ(records(), 20);
 }
 

@@ -16,7 +16,7 @@ using cases::MeasuredCase;
 
 cases::RunRecord good_run(double seconds = 0, std::uint64_t bytes = 0) {
   cases::RunRecord record;
-  record.seconds.mesh = seconds;
+  record.costs.mesh_seconds = seconds;
   record.peak_rss_bytes = bytes;
   return record;
 }

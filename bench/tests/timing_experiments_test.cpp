@@ -40,7 +40,7 @@ std::vector<std::string> texts(const results::ExperimentResult& result, std::str
 }
 
 /// A case of a mesher with a warm-up that took a minute, and counted runs that took these seconds.
-cases::MeasuredCase measured_case(const std::string& mesher, const std::vector<StageSeconds>& seconds,
+cases::MeasuredCase measured_case(const std::string& mesher, const std::vector<StageCosts>& seconds,
                                   const MeshCounts& counts) {
   cases::MeasuredCase measured;
   measured.id = "0123456789abcdef";
@@ -51,21 +51,21 @@ cases::MeasuredCase measured_case(const std::string& mesher, const std::vector<S
   record.mesher.name = mesher;
   record.counts = counts;
   record.mesh_fingerprint = "abc";
-  record.seconds.mesh = record.seconds.delaunay = record.seconds.front = 60;
+  record.costs.mesh_seconds = record.costs[Stage::delaunay].seconds = record.costs[Stage::front].seconds = 60;
   add_run(measured, record);
-  for (const StageSeconds& s : seconds) {
-    record.seconds = s;
+  for (const StageCosts& s : seconds) {
+    record.costs = s;
     add_run(measured, record);
   }
   return measured;
 }
 
-StageSeconds stages(double delaunay, double front, double mesh = 0) {
-  StageSeconds seconds;
-  seconds.delaunay = delaunay;
-  seconds.front = front;
-  seconds.mesh = mesh;
-  return seconds;
+StageCosts stages(double delaunay, double front, double mesh = 0) {
+  StageCosts costs;
+  costs[Stage::delaunay].seconds = delaunay;
+  costs[Stage::front].seconds = front;
+  costs.mesh_seconds = mesh;
+  return costs;
 }
 
 MeshCounts counts_with(std::uint64_t vertices) {
@@ -88,13 +88,14 @@ std::vector<experiments::Fig8Row> series(const std::string& strategy, double exp
   constexpr int count = 9;
   for (int i = 0; i < count; ++i) {
     const double size = std::round(1000 * std::pow(10, decades * i / (count - 1)));
-    const StageSeconds s = stages(1e-6 * std::pow(size, exponent), 2e-6 * size, 1e-6 * std::pow(size, exponent));
+    const StageCosts s = stages(1e-6 * std::pow(size, exponent), 2e-6 * size, 1e-6 * std::pow(size, exponent));
     MeshCounts counts = counts_with(static_cast<std::uint64_t>(size));
     counts.front_tetrahedra = 5 * counts.vertices;
     experiments::Fig8Row& row = rows.emplace_back();
     row.measured = measured_case(mesher, {s, s, s, s, s}, counts);
-    row.measured.first.work.delaunay.vertices_examined = static_cast<std::uint64_t>(10 * std::pow(size, exponent));
-    row.measured.first.work.front.front_candidates = 20 * counts.front_tetrahedra;
+    row.measured.first.costs[Stage::delaunay].work.vertices_examined =
+        static_cast<std::uint64_t>(10 * std::pow(size, exponent));
+    row.measured.first.costs[Stage::front].work.front_candidates = 20 * counts.front_tetrahedra;
     row.seconds = mesher == "ccdt" ? experiments::cdt_seconds : experiments::whole_seconds;
     row.model = "piston", row.strategy = strategy;
     row.edge_length = 1e5 / size;
@@ -202,10 +203,14 @@ std::vector<double> twice(std::vector<double> values) {
 std::vector<experiments::LocatorsRow> locators(experiments::SurfaceKind kind, const std::vector<double>& octree) {
   std::vector<experiments::LocatorsRow> rows;
   for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
-    std::vector<StageSeconds> seconds;
+    std::vector<StageCosts> seconds;
     for (const double s : twice(octree)) seconds.push_back(stages(1, locator == LocatorKind::octree ? s : 1));
-    rows.push_back(
-        {{measured_case("ccdt", seconds, counts_with(1000)), &StageSeconds::front}, "part", kind, false, 181, locator});
+    rows.push_back({{measured_case("ccdt", seconds, counts_with(1000)), cases::stage_seconds(Stage::front)},
+                    "part",
+                    kind,
+                    false,
+                    181,
+                    locator});
   }
   return rows;
 }
@@ -234,7 +239,7 @@ experiments::SpeedRow speed_row(const std::string& mesher, unsigned threads, dou
                                 std::uint64_t tetrahedra = 1000, bool is_weak = false) {
   MeshCounts counts;
   counts.tetrahedra = tetrahedra;
-  const std::vector<StageSeconds> six(6, stages(seconds / 2, 0, seconds));
+  const std::vector<StageCosts> six(6, stages(seconds / 2, 0, seconds));
   return {{measured_case(mesher, six, counts)}, "end to end", "part", threads, is_weak};
 }
 
@@ -279,14 +284,14 @@ experiments::Table1Model table1_model(const std::vector<double>& check = {0.1, 0
                                       const std::vector<double>& delaunay = {2, 2, 2}) {
   experiments::Table1Model model{"piston", 2.5};
   const std::vector<double> checks = twice(check), delaunays = twice(delaunay);
-  std::vector<StageSeconds> with, without;
+  std::vector<StageCosts> with, without;
   for (std::size_t i = 0; i < checks.size(); ++i) {
     with.push_back(stages(delaunays[i], checks[i] * delaunays[i], 9));
     without.push_back(stages(2, front, 20));
   }
   model.cases["with_check"] = measured_case("ccdt", with, counts_with(1000));
   model.cases["without_check"] = measured_case("ccdt", without, counts_with(1000));
-  model.cases["without_check"].first.work.front.visibility_tests = 30000;
+  model.cases["without_check"].first.costs[Stage::front].work.visibility_tests = 30000;
   return model;
 }
 
@@ -397,7 +402,7 @@ TEST(TimedCases, AreThoseOfWhichAllRunsAreWithinTheBudget) {
   const auto is_short = [&](double seconds, bool fails = false) {
     cases::MeasuredCase measured;
     bench::RunRecord record;
-    record.seconds.mesh = seconds;
+    record.costs.mesh_seconds = seconds;
     add_run(measured, record);
     if (fails) fail(measured);
     return experiments::is_short(options, measured);

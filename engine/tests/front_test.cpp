@@ -176,7 +176,7 @@ TEST(Front, LooksAtFewFacesInAStackOfThinPlates) {
   options.refine_surface = true;
   const MeshResult result = mesh_plc(stack_on_a_beam(), options);
   EXPECT_GT(result.counts.front_tetrahedra, 2000u);
-  EXPECT_LT(result.work.front.visibility_tests, 25 * result.counts.front_tetrahedra);
+  EXPECT_LT(result.costs[Stage::front].work.visibility_tests, 25 * result.counts.front_tetrahedra);
 }
 
 }  // namespace

@@ -429,7 +429,7 @@ TEST(InteriorPoints, FewAreComparedWithTheSpheresOfANearlyFlatSurface) {
   options.improve.improvement = Improvement::none;
   const MeshResult mesh = mesh_plc(cube_with_dome(20, 1e-6), options);
   EXPECT_GT(mesh.counts.interior_vertices, 500u);
-  EXPECT_LT(mesh.work.lattice.box_pairs, 100u);  // 2,394 with a ball around all these spheres
+  EXPECT_LT(mesh.costs[Stage::lattice].work.box_pairs, 100u);  // 2,394 with a ball around all these spheres
 }
 
 TEST(InteriorPoints, ThatWereDroppedAreCounted) {

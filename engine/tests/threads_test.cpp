@@ -162,8 +162,8 @@ MeshResult expect_one_mesh(const std::string& name, const InputPlc& input, MeshO
     const MeshResult several = mesh_plc(input, options);
     expect_same_bytes(one.mesh, several.mesh);
     // Vertices are inserted in another order, but otherwise several threads do what one does.
-    EXPECT_TRUE(one.work.plc == several.work.plc);
-    EXPECT_TRUE(one.work.improve == several.work.improve);
+    EXPECT_TRUE(one.costs[Stage::plc].work == several.costs[Stage::plc].work);
+    EXPECT_TRUE(one.costs[Stage::improve].work == several.costs[Stage::improve].work);
     EXPECT_EQ(one.counts.core_tetrahedra, several.counts.core_tetrahedra);
   }
   return one;

@@ -47,16 +47,17 @@ Work work_of(const Task& task) {
 }
 
 /// The counts that are not zero, one per line.
-std::string text_of(const char* stage, const Work& work) {
+std::string text_of(const std::string& stage, const Work& work) {
   std::string text;
   for (const WorkCount& c : work_counts)
-    if (work.*c.count != 0) text += std::string(stage) + "." + c.name + " " + std::to_string(work.*c.count) + "\n";
+    if (work.*c.count != 0) text += stage + "." + c.name + " " + std::to_string(work.*c.count) + "\n";
   return text;
 }
 
-std::string text_of(const StageWork& work) {
+std::string text_of(const StageCosts& costs) {
   std::string text;
-  for (const MeshStage& stage : mesh_stages) text += text_of(stage.name, work.*stage.work);
+  for (const NamedValue<Stage>& stage : names_of(Stage{}))
+    text += text_of(std::string(stage.name), costs[stage.value].work);
   return text;
 }
 
@@ -117,10 +118,13 @@ TEST(Work, OfAMeshIsTheSameAgainAndInsideOtherWork) {
     second = mesh_plc(gridded_cube(3));
     third = mesh_plc(plc);
   });
-  EXPECT_EQ(text_of(third.work), text_of(first.work));
-  EXPECT_EQ(around.cells_created - second.work.delaunay.cells_created - second.work.protect.cells_created -
-                second.work.improve.cells_created,
-            first.work.delaunay.cells_created + first.work.protect.cells_created + first.work.improve.cells_created);
+  EXPECT_EQ(text_of(third.costs), text_of(first.costs));
+  std::uint64_t of_first = 0, of_second = 0;
+  for (const Stage stage : {Stage::delaunay, Stage::protect, Stage::improve}) {
+    of_first += first.costs[stage].work.cells_created;
+    of_second += second.costs[stage].work.cells_created;
+  }
+  EXPECT_EQ(around.cells_created - of_second, of_first);
 }
 
 TEST(Work, CellsThatWereMadeAndNotDestroyedAreThere) {
@@ -144,11 +148,11 @@ TEST(Work, CellsThatImprovementMadeAndDidNotDestroyAreThere) {
   options.improve.improvement = Improvement::all;
   options.improve.target_dihedral = 40;
   const MeshResult after = mesh_plc(plc, options);
-  EXPECT_EQ(before.work.improve, Work());
-  EXPECT_GT(after.work.improve.cells_created, 0u);
-  EXPECT_EQ(after.work.improve.cells_created - after.work.improve.cells_destroyed,
+  EXPECT_EQ(before.costs[Stage::improve].work, Work());
+  EXPECT_GT(after.costs[Stage::improve].work.cells_created, 0u);
+  EXPECT_EQ(after.costs[Stage::improve].work.cells_created - after.costs[Stage::improve].work.cells_destroyed,
             after.counts.tetrahedra - before.counts.tetrahedra);
-  EXPECT_EQ(after.work.improve.vertices_moved, after.counts.improve.moved_vertices);
+  EXPECT_EQ(after.costs[Stage::improve].work.vertices_moved, after.counts.improve.moved_vertices);
 }
 
 TEST(Work, ExactEvaluationsAreTheSumOfTheirKinds) {
@@ -156,8 +160,8 @@ TEST(Work, ExactEvaluationsAreTheSumOfTheirKinds) {
     MeshOptions options;
     options.delaunay = method, options.least_core = 0;
     const MeshResult result = mesh_plc(gridded_cube(4), options);
-    for (const MeshStage& stage : mesh_stages) {
-      const Work& work = result.work.*stage.work;
+    for (const NamedValue<Stage>& stage : names_of(Stage{})) {
+      const Work& work = result.costs[stage.value].work;
       EXPECT_EQ(work.exact_evaluations, work.narrow_evaluations + work.wide_evaluations + work.perturbed_ties)
           << stage.name;
     }
@@ -179,7 +183,7 @@ random.peak_bytes 253405
 }
 
 TEST(WorkOfSmallInputs, CubeFilledWithALattice) {
-  expect_work(text_of(mesh_plc(rotated(oblique, gridded_cube(3))).work), R"(
+  expect_work(text_of(mesh_plc(rotated(oblique, gridded_cube(3))).costs), R"(
 plc.box_tree_nodes 365
 plc.box_pairs 203
 plc.cells_visited 297
@@ -244,7 +248,7 @@ TEST(WorkOfSmallInputs, CubeWrappedFaceByFace) {
   MeshOptions options;
   options.delaunay = DelaunayMethod::wrap;
   options.lattice = Lattice::bcc;
-  expect_work(text_of("delaunay", mesh_plc(gridded_cube(3), options).work.delaunay), R"(
+  expect_work(text_of("delaunay", mesh_plc(gridded_cube(3), options).costs[Stage::delaunay].work), R"(
 delaunay.orient3d_filter_failures 1428
 delaunay.insphere_filter_failures 186
 delaunay.narrow_evaluations 1614
@@ -261,7 +265,7 @@ delaunay.peak_bytes 16400
 TEST(WorkOfSmallInputs, SegmentsThatNeedProtection) {
   MeshOptions options;
   options.lattice = Lattice::none;
-  expect_work(text_of("protect", mesh_plc(plc_test::schoenhardt(), options).work.protect), R"(
+  expect_work(text_of("protect", mesh_plc(plc_test::schoenhardt(), options).costs[Stage::protect].work), R"(
 protect.insertions 3
 protect.walk_steps 5
 protect.cells_tested 36
@@ -279,8 +283,8 @@ std::string work_of_front(LocatorKind locator, bool face_protection) {
   options.lattice = Lattice::none;
   options.locator = locator;
   options.face_protection = face_protection;
-  const StageWork work = mesh_plc(rotated(oblique, two_bars()), options).work;
-  return text_of("face_check", work.face_check) + text_of("front", work.front);
+  const StageCosts costs = mesh_plc(rotated(oblique, two_bars()), options).costs;
+  return text_of("face_check", costs[Stage::face_check].work) + text_of("front", costs[Stage::front].work);
 }
 
 TEST(WorkOfSmallInputs, FrontWithEachLocator) {
@@ -368,7 +372,7 @@ TEST(WorkOfSmallInputs, Improvement) {
   MeshOptions options;
   options.improve.target_dihedral = 40;
   options.improve.boundary = BoundaryRule::slide;
-  expect_work(text_of("improve", mesh_plc(gridded_cube(3), options).work.improve), R"(
+  expect_work(text_of("improve", mesh_plc(gridded_cube(3), options).costs[Stage::improve].work), R"(
 improve.orient3d_filter_failures 294
 improve.narrow_evaluations 293
 improve.wide_evaluations 1

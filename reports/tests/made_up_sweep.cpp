@@ -108,8 +108,8 @@ bench::RunRecord record_of(const MadeUpCase& c, double seconds, const std::strin
   run.environment.cores = 2;
   run.counts.tetrahedra = static_cast<std::uint64_t>(c.input.size * (c.lattice == "bcc" ? 1.1 : 1));
   run.counts.vertices = run.counts.tetrahedra / 5;
-  run.seconds.mesh = seconds;
-  run.seconds.delaunay = 0.7 * seconds;
+  run.costs.mesh_seconds = seconds;
+  run.costs[Stage::delaunay].seconds = 0.7 * seconds;
   run.peak_rss_bytes = 1000 * run.counts.tetrahedra;
   run.quality = bench::measure_quality({});
   run.quality.r = {1, 1.3, 1.2, 3, worst_r_of(c) * (1 + 0.1 * std::sin(c.input.size)), {{1, 2}, {3}}};
