@@ -326,7 +326,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, const retry::Remedies& 
       retry::divide_facets(*delaunay, remedies.divided, plc::tolerance_of(t.plc, run.options.flatness), t.plc);
     });
   }
-  if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(least_size, run, t), run);
+  if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(run, t), run);
   if (!delaunay) delaunay::refuse_flat_points();
   protection::ProtectedDelaunay surface = run.measured(Stage::protect, [&] {
     return retry::split_pieces(
