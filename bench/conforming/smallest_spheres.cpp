@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/box_tree.h"
 
 namespace ccdt::conforming {
 namespace {

@@ -15,10 +15,10 @@
 #include "engine/base/count_work.h"
 #include "engine/circumcenters/surface_obstacles.h"
 #include "engine/delaunay/insertion.h"
+#include "engine/geometry/grid.h"
 #include "engine/lattice/octree.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/lattice/size_field.h"
-#include "engine/numbers/grid.h"
 
 namespace ccdt::circumcenters {
 namespace {

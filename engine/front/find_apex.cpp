@@ -9,10 +9,10 @@
 
 #include "engine/base/count_work.h"
 #include "engine/front/visibility.h"
+#include "engine/geometry/filters.h"
+#include "engine/geometry/predicates.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
 
 namespace ccdt::front {
 namespace {

@@ -7,10 +7,10 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::plc {
 namespace {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/base/sort_in_buckets.h"
 #include "engine/base/union_find.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::plc {
 

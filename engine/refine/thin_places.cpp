@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <utility>
 
-#include "engine/base/closest_on_segment.h"
-#include "engine/base/closest_on_triangle.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/geometry/closest_on_segment.h"
+#include "engine/geometry/closest_on_triangle.h"
 #include "engine/lattice/size_field.h"
 
 namespace ccdt::refine {

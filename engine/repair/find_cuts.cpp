@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::repair {
 namespace {
@@ -67,8 +67,8 @@ void add_crossings(const Member& one, std::size_t k, const Member& other, int ax
   const Point3 &p = one.points[k], &q = one.points[plc::next_corner(k)];
   for (std::size_t j = 0; j < 3; ++j) {
     const Point3 &a = other.points[j], &b = other.points[plc::next_corner(j)];
-    if (plc::orient_along(axis, a, b, p) * plc::orient_along(axis, a, b, q) < 0 &&
-        plc::orient_along(axis, p, q, a) * plc::orient_along(axis, p, q, b) < 0)
+    if (orient_along(axis, a, b, p) * orient_along(axis, a, b, q) < 0 &&
+        orient_along(axis, p, q, a) * orient_along(axis, p, q, b) < 0)
       ends.add(meet_line(axis, p, q, a, b), false);
   }
 }
@@ -80,7 +80,7 @@ void add_ends(const Member& one, const Member& other, EndPoints& ends) {
     const std::size_t l = plc::next_corner(k);
     if (one.is_common[k]) ends.add(exactly(one.points[k]), true);
     if (one.sides[k] == 0 && one.sides[l] == 0) {
-      add_crossings(one, k, other, plc::dominant_axis(other.points), ends);
+      add_crossings(one, k, other, dominant_axis(other.points), ends);
     } else if (one.sides[k] * one.sides[l] < 0 && passes_through(one.points[k], one.points[l], other.points)) {
       if (!plane) plane = plane_of(other.points);
       ends.add(meet_plane(one.points[k], one.points[l], *plane), false);
@@ -100,7 +100,7 @@ void cut_across(const Member& s, const Member& t, std::vector<Cut>& cuts) {
 
 /// Cuts the one along the edges of the other in the same plane.
 void cut_along_edges(const Member& one, const Member& other, std::vector<Cut>& cuts) {
-  const int axis = plc::dominant_axis(one.points);
+  const int axis = dominant_axis(one.points);
   for (std::size_t k = 0; k < 3; ++k) {
     if (has_edge(one.corners, other.corners[k], other.corners[plc::next_corner(k)])) continue;
     EndPoints ends;

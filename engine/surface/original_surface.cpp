@@ -6,15 +6,15 @@
 #include <unordered_map>
 #include <utility>
 
-#include "engine/base/closest_on_triangle.h"
 #include "engine/base/count_work.h"
 #include "engine/base/point.h"
 #include "engine/base/portable_math.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/union_find.h"
+#include "engine/geometry/closest_on_triangle.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::surface {
 
@@ -333,7 +333,7 @@ void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
     std::sort(items_.begin() + begin, items_.begin() + end);
     return;
   }
-  const int axis = plc::dominant_axis(box.high - box.low);
+  const int axis = dominant_axis(box.high - box.low);
   const auto key = [&](std::uint32_t t) {
     const std::array<Point3, 3> c = corners(t);
     return as_array(c[0])[axis] + as_array(c[1])[axis] + as_array(c[2])[axis];

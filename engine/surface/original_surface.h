@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/point.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/surface/original_surface.h"
 
 namespace ccdt::surface {

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/point.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/surface/feature_curves.h"
 
 namespace ccdt::surface {

@@ -4,12 +4,12 @@
 #include <random>
 #include <utility>
 
-#include "engine/base/box_tree.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_overlaps.h"
-#include "engine/plc/integer_points.h"
 #include "engine/tests/plc_test_solids.h"
 
 namespace ccdt {
@@ -225,7 +225,7 @@ TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
   plc::TriangleSet triangles;
   while (triangles.size() < 1000) {
     const plc::VertexTriple t = {VertexId(vertex(random)), VertexId(vertex(random)), VertexId(vertex(random))};
-    if (!plc::has_no_area(plc::points_of(vertices, t))) triangles.add(t, 0, 0);
+    if (!has_no_area(plc::points_of(vertices, t))) triangles.add(t, 0, 0);
   }
   const auto sorted_pairs = [&](std::span<const std::uint8_t> is_doubtful) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/find_overlaps.h"
-#include "engine/plc/integer_points.h"
 #include "engine/repair/cut_crossings.h"
 #include "engine/tests/plc_test_solids.h"
 #include "models/solids.h"
@@ -34,8 +34,8 @@ bool are_folded(std::span<const Point3> points, const plc::VertexTriple& s, cons
   const Point3 &a = points[common[0]], &b = points[common[1]];
   const Point3 &c = points[plc::apex_over(s, common[0], common[1])],
                &d = points[plc::apex_over(t, common[0], common[1])];
-  const int axis = plc::dominant_axis({a, b, c});
-  return numbers::orient3d(a, b, c, d) == 0 && plc::orient_along(axis, a, b, c) == plc::orient_along(axis, a, b, d);
+  const int axis = dominant_axis({a, b, c});
+  return numbers::orient3d(a, b, c, d) == 0 && orient_along(axis, a, b, c) == orient_along(axis, a, b, d);
 }
 
 bool do_meet(std::span<const Point3> points, plc::VertexTriple s, plc::VertexTriple t) {

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/find_overlaps.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::tets {
 namespace {
@@ -20,8 +20,8 @@ std::array<Point3, 3> points_from(const CellComplex& x, const Triangle& t, std::
 /// Are two triangles with the common edge ab on the same side of it in one plane?
 bool overlap_at_edge(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   if (numbers::orient3d(a, b, c, d) != 0) return false;
-  const int axis = plc::axis_across({a, b, c});
-  return plc::orient_along(axis, a, b, c) == plc::orient_along(axis, a, b, d);
+  const int axis = axis_across({a, b, c});
+  return orient_along(axis, a, b, c) == orient_along(axis, a, b, d);
 }
 
 /// Do two triangles meet in more than common corners and edges?

@@ -1,4 +1,4 @@
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
 
 #include "engine/base/morton.h"
 
