@@ -103,56 +103,6 @@ double median(std::vector<Weighted> sizes) {
 
 }  // namespace
 
-SizeTree::SizeTree(std::span<const Item> items) {
-  if (items.empty()) return;
-  RawVector<Point3> centers(items.size());
-  parallel_for(items.size(), grain, [&](std::size_t i) { centers[i] = items[i].box.low + items[i].box.high; });
-  const std::vector<std::uint32_t> order = morton_order(centers);
-  items_.resize(items.size());
-  parallel_for(items.size(), grain, [&](std::size_t i) { items_[i] = items[order[i]]; });
-  constexpr std::size_t items_a_leaf = 8;
-  std::size_t leaves = 1;
-  while (leaves * items_a_leaf < items_.size()) leaves *= 2;
-  first_leaf_ = leaves - 1;
-  groups_.resize(2 * leaves - 1);
-  // Groups that are large enough for several threads, and whatever is above them.
-  struct Part {
-    std::size_t begin, end;
-  };
-  std::vector<Part> parts = {{0, items_.size()}};
-  while (parts.size() < std::min(leaves, std::size_t{64})) {
-    std::vector<Part> halves;
-    for (const auto& [begin, end] : parts) {
-      halves.push_back({begin, middle(begin, end)});
-      halves.push_back({middle(begin, end), end});
-    }
-    parts = std::move(halves);
-  }
-  const std::size_t above = parts.size() - 1;
-  parallel_for(parts.size(), 1, [&](std::size_t i) { surround(parts[i].begin, parts[i].end, above + i); });
-  for (std::size_t group = above; group-- > 0;) {
-    const Group& right = groups_[2 * group + 2];
-    groups_[group] = both(groups_[2 * group + 1], right.box, right.size);
-  }
-}
-
-SizeTree::Group SizeTree::both(const Group& a, const Box& box, double size) {
-  return {bounding_box(std::array{a.box.low, a.box.high, box.low, box.high}), std::min(a.size, size)};
-}
-
-SizeTree::Group SizeTree::surround(std::size_t begin, std::size_t end, std::size_t group) {
-  Group& all = groups_[group];
-  if (group >= first_leaf_) {
-    all = {items_[begin].box, items_[begin].size};
-    for (std::size_t i = begin + 1; i < end; ++i) all = both(all, items_[i].box, items_[i].size);
-  } else {
-    const std::size_t half = middle(begin, end);
-    const Group right = surround(half, end, 2 * group + 2);
-    all = both(surround(begin, half, 2 * group + 1), right.box, right.size);
-  }
-  return all;
-}
-
 // The least value is at a corner of the common part, and each of those is on an edge of the one or of the other.
 double least_value(const std::array<Point3, 4>& corners, const std::array<double, 4>& values, const Box& box) {
   double least = HUGE_VAL;
@@ -185,21 +135,22 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
 }
 
 InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(background) {
-  std::vector<SizeTree::Item> tetrahedra, vertices;
-  for (std::uint32_t t = 0; t < background.tetrahedra.size(); ++t) {
-    const auto& v = background.tetrahedra[t];
+  RawVector<Box> tetrahedra, vertices;
+  RawVector<double> least_sizes, sizes;
+  for (const auto& v : background.tetrahedra) {
     std::array<Point3, 4> corners;
     double size = HUGE_VAL;
     for (unsigned i = 0; i < 4; ++i) {
       corners[i] = background.vertices[v[i]];
       size = std::min(size, background.sizes[v[i]]);
     }
-    tetrahedra.push_back({bounding_box(corners), size, t});
+    tetrahedra.push_back(bounding_box(corners));
+    least_sizes.push_back(size);
   }
-  for (std::uint32_t v = 0; v < background.vertices.size(); ++v)
-    vertices.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], v});
-  tetrahedra_ = SizeTree(tetrahedra);
-  vertices_ = SizeTree(vertices);
+  for (const Point3& p : background.vertices) vertices.push_back(box_of(p));
+  for (const double size : background.sizes) sizes.push_back(size);
+  tetrahedra_ = BoxTree(std::move(tetrahedra), least_sizes);
+  vertices_ = BoxTree(std::move(vertices), sizes);
 }
 
 double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) const {
@@ -215,11 +166,11 @@ double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) co
 
 bool InterpolatedSizes::is_below(const Box& box, double bound) const {
   const auto least_if_meeting = [&](const Box& other, double size) { return other.meets(box) ? size : HUGE_VAL; };
-  if (tetrahedra_.any(bound, least_if_meeting,
-                      [&](const SizeTree::Item& item) { return least_in(box, item.number) < bound; }))
+  if (tetrahedra_.any_below(bound, least_if_meeting,
+                      [&](const BoxTree::Item& item) { return least_in(box, item.number) < bound; }))
     return true;
-  const bool meets = tetrahedra_.any(HUGE_VAL, least_if_meeting,
-                                     [&](const SizeTree::Item& item) { return least_in(box, item.number) < HUGE_VAL; });
+  const bool meets = tetrahedra_.any_below(HUGE_VAL, least_if_meeting,
+                                     [&](const BoxTree::Item& item) { return least_in(box, item.number) < HUGE_VAL; });
   return !meets && is_below_outside(box, bound);
 }
 
@@ -227,14 +178,14 @@ bool InterpolatedSizes::is_below(const Box& box, double bound) const {
 bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
   double farthest = HUGE_VAL;
   const auto distance = [&](const Box& other, double) { return squared_distance(other, box); };
-  vertices_.any(farthest, distance, [&](const SizeTree::Item& item) {
+  vertices_.any_below(farthest, distance, [&](const BoxTree::Item& item) {
     farthest = std::min(farthest, squared_farthest_distance(box, item.box.low));
     return false;
   });
   const auto size_if_near = [&](const Box& other, double size) {
     return distance(other, size) <= farthest ? size : HUGE_VAL;
   };
-  return vertices_.any(bound, size_if_near, [](const SizeTree::Item&) { return true; });
+  return vertices_.any_below(bound, size_if_near, [](const BoxTree::Item&) { return true; });
 }
 
 SizeField::SizeField(const DomainSurface& surface, double edge_length, double grading,
@@ -249,16 +200,15 @@ SizeField::SizeField(const DomainSurface& surface, double edge_length, double gr
 
 void SizeField::sample(const DomainSurface& surface, double edge_length) {
   const std::size_t triangles = surface.triangles.size();
-  RawVector<SizeTree::Item> samples;
-  samples.reserve(triangles + surface.vertices.size());
-  samples.resize(triangles);
-  const auto sample_at = [](const Point3& p, double size) { return SizeTree::Item{{p, p}, size, 0}; };
+  RawVector<Box> places(triangles);
+  RawVector<double> sizes(triangles);
+  places.reserve(triangles + surface.vertices.size()), sizes.reserve(triangles + surface.vertices.size());
   RawVector<std::array<double, 3>> lengths(triangles);
   parallel_for(triangles, grain, [&](std::size_t t) {
     const auto [a, b, c] = surface.corners(static_cast<std::uint32_t>(t));
     lengths[t] = {length(b - a), length(c - b), length(a - c)};
-    const double mean = (lengths[t][0] + lengths[t][1] + lengths[t][2]) / 3;
-    samples[t] = sample_at((1.0 / 3) * (a + b + c), mean);
+    places[t] = box_of((1.0 / 3) * (a + b + c));
+    sizes[t] = (lengths[t][0] + lengths[t][1] + lengths[t][2]) / 3;
   });
   // The sums are rounded, so they are made in one order.
   std::vector<Mean> at_vertex(surface.vertices.size());
@@ -276,19 +226,12 @@ void SizeField::sample(const DomainSurface& surface, double edge_length) {
   reference_ = edge_length > 0 || everywhere.count == 0 ? edge_length : everywhere.value();
   largest_ = edge_length > 0 || grading_ == 0 ? reference_ : HUGE_VAL;
   if (grading_ <= 0) return;
-  const auto is_used = [](const Mean& mean) { return mean.count > 0; };
-  parallel_pack(
-      at_vertex.size(), grain,
-      [&](std::size_t v, std::size_t end) {
-        return static_cast<std::size_t>(std::count_if(&at_vertex[v], at_vertex.data() + end, is_used));
-      },
-      [&](std::size_t size) { samples.resize(triangles + size); },
-      [&](std::size_t v, std::size_t end, std::size_t place) {
-        for (; v < end; ++v)
-          if (is_used(at_vertex[v]))
-            samples[triangles + place++] = sample_at(surface.vertices[v], at_vertex[v].value());
-      });
-  samples_ = SizeTree(samples);
+  for (std::size_t v = 0; v < at_vertex.size(); ++v) {
+    if (at_vertex[v].count == 0) continue;
+    places.push_back(box_of(surface.vertices[v]));
+    sizes.push_back(at_vertex[v].value());
+  }
+  samples_ = BoxTree(std::move(places), sizes);
 }
 
 void SizeField::sample(const BackgroundSizes& background, double edge_length) {
@@ -299,10 +242,11 @@ void SizeField::sample(const BackgroundSizes& background, double edge_length) {
     interpolated_.emplace(background);
     return;
   }
-  std::vector<SizeTree::Item> samples;
-  for (std::size_t v = 0; v < background.vertices.size(); ++v)
-    samples.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], 0});
-  samples_ = SizeTree(samples);
+  RawVector<Box> places;
+  RawVector<double> sizes;
+  for (const Point3& p : background.vertices) places.push_back(box_of(p));
+  for (const double size : background.sizes) sizes.push_back(size);
+  samples_ = BoxTree(std::move(places), sizes);
 }
 
 bool SizeField::is_below(const Box& box, double bound) const {
@@ -311,7 +255,7 @@ bool SizeField::is_below(const Box& box, double bound) const {
   const auto reach = [&](const Box& place, double size) {
     return size + grading_ * std::sqrt(squared_distance(place, box));
   };
-  return samples_.any(bound, reach, [](const SizeTree::Item&) { return true; });
+  return samples_.any_below(bound, reach, [](const BoxTree::Item&) { return true; });
 }
 
 }  // namespace ccdt::lattice

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "engine/base/box.h"
 
@@ -25,9 +26,10 @@ void SurfaceSizes::limit_from_below(double least) {
   last_size_ = largest_;
   std::vector<SizedPoint> limited = found_;
   for (SizedPoint& place : limited) place.size = std::max(place.size, least);
-  std::vector<lattice::SizeTree::Item> items;
-  for (const auto& [point, size] : thinned(limited)) items.push_back({box_of(point), size, 0});
-  places_ = lattice::SizeTree(items);
+  RawVector<Box> places;
+  RawVector<double> sizes;
+  for (const auto& [point, size] : thinned(limited)) places.push_back(box_of(point)), sizes.push_back(size);
+  places_ = BoxTree(std::move(places), sizes);
 }
 
 double SurfaceSizes::least_for(double share) const {
@@ -51,7 +53,7 @@ double SurfaceSizes::at(const Point3& p) {
   // after each other are mostly near.
   double least = std::min(largest_, (1 + 1e-12) * (last_size_ + grading_ * length(p - last_)));
   const auto lower = [&](const Box& box, double size) { return size + grading_ * std::sqrt(squared_distance(box, p)); };
-  places_.any(least, lower, [&](const lattice::SizeTree::Item& place) {
+  places_.any_below(least, lower, [&](const BoxTree::Item& place) {
     least = lower(place.box, place.size);
     return false;
   });

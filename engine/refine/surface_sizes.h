@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "engine/base/point.h"
-#include "engine/lattice/size_field.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/plc.h"
 #include "engine/refine/refine_plc.h"
 #include "engine/refine/thin_places.h"
@@ -29,7 +29,7 @@ class SurfaceSizes {
   Point3 last_;  ///< where the length was asked for last, and what it was
   double last_size_;
   std::vector<SizedPoint> found_;  ///< all thin places
-  lattice::SizeTree places_;       ///< those that are left at the limit
+  BoxTree places_;                 ///< those that are left at the limit
 };
 
 }  // namespace ccdt::refine

@@ -9,9 +9,9 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/geometry/closest_on_segment.h"
 #include "engine/geometry/closest_on_triangle.h"
-#include "engine/lattice/size_field.h"
 
 namespace ccdt::refine {
 
@@ -41,7 +41,6 @@ struct ccdt::HashTraits<ccdt::refine::SampleCell> {
 namespace ccdt::refine {
 namespace {
 
-using Item = lattice::SizeTree::Item;
 using Triangle = std::array<Point3, 3>;
 
 constexpr std::uint32_t none = 0xFFFFFFFFu;
@@ -110,7 +109,7 @@ class Strips {
   };
   struct Edges {
     std::vector<FacetEdge> edges;
-    lattice::SizeTree tree;
+    BoxTree tree;
   };
   struct Piece {
     std::array<Point3, 2> ends;
@@ -147,13 +146,13 @@ class Strips {
   void begin(std::vector<FacetEdge> edges) {
     if (edges.size() <= 3) return;  // in a triangle, all edges meet
     const auto facet = static_cast<std::uint32_t>(facets_.size());
-    std::vector<Item> items;
+    RawVector<Box> boxes;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
       const auto [a, b] = edges[i].ends;
-      items.push_back({hull(box_of(point(a)), box_of(point(b))), 0, i});
+      boxes.push_back(hull(box_of(point(a)), box_of(point(b))));
       open_.push_back({{point(a), point(b)}, facet, i, i});
     }
-    facets_.push_back({std::move(edges), lattice::SizeTree(items)});
+    facets_.push_back({std::move(edges), BoxTree(std::move(boxes))});
   }
 
   void measure(Piece piece, double least, std::vector<SizedPoint>& places) {
@@ -192,7 +191,7 @@ class Strips {
     };
     try_edge(piece.near);
     const auto distance = [&](const Box& box, double) { return std::sqrt(squared_distance(box, p)); };
-    facet.tree.any(width, distance, [&](const Item& item) {
+    facet.tree.any_below(width, distance, [&](const BoxTree::Item& item) {
       try_edge(item.number);
       return false;
     });
@@ -224,9 +223,9 @@ class Walls {
           if (facets_of_vertex_[v].empty() || facets_of_vertex_[v].back() != f) facets_of_vertex_[v].push_back(f);
       }
     }
-    std::vector<Item> items;
-    for (std::uint32_t i = 0; i < triangles_.size(); ++i) items.push_back({bounding_box(triangles_[i].corners), 0, i});
-    tree_ = lattice::SizeTree(items);
+    RawVector<Box> boxes;
+    for (const FacetTriangle& t : triangles_) boxes.push_back(bounding_box(t.corners));
+    tree_ = BoxTree(std::move(boxes));
   }
 
   /// Measures the pieces that are longer than a length, which decreases from call to call.
@@ -327,7 +326,7 @@ class Walls {
       const double least = std::sqrt(squared_distance(box, p));
       return height > 0 && least < 2 * height ? least : HUGE_VAL;
     };
-    tree_.any(width, distance, [&](const Item& item) {
+    tree_.any_below(width, distance, [&](const BoxTree::Item& item) {
       try_triangle(item.number);
       return false;
     });
@@ -338,7 +337,7 @@ class Walls {
   std::vector<std::vector<std::uint32_t>> facets_of_vertex_;
   std::vector<std::uint32_t> met_by_;  // by facet: the last facet that searched and shares a vertex with it
   std::vector<FacetTriangle> triangles_;
-  lattice::SizeTree tree_;
+  BoxTree tree_;
   HashTable<SampleCell, Sample> known_;
   std::vector<Piece> open_;
 };
