@@ -5,7 +5,8 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
-#include "engine/lattice/clear_sites.h"
+#include "engine/geometry/balls.h"
+#include "engine/geometry/closest_point.h"
 
 namespace ccdt::circumcenters {
 namespace {
@@ -26,7 +27,7 @@ bool SurfaceObstacles::reach(const Point3& p, double clearance) const {
     const Obstacle& o = obstacles_[i];
     ++tested;
     is_reached = squared_length(p - o.ball_center) <= o.squared_ball_radius ||
-                 (o.needs_clearance && lattice::squared_distance(o.corners, p) <= squared_clearance);
+                 (o.needs_clearance && squared_distance(o.corners, p) <= squared_clearance);
   });
   ++work_done.sites_tested;
   work_done.obstacles_tested += tested;
@@ -47,13 +48,12 @@ RawVector<SurfaceObstacles::Obstacle> SurfaceObstacles::list(const lattice::Doma
   RawVector<Obstacle> obstacles(triangles + subsegments);
   parallel_for(triangles, obstacle_grain, [&](std::size_t t) {
     const lattice::TrianglePoints corners = surface.corners(static_cast<std::uint32_t>(t));
-    obstacles[t] = obstacle(corners, lattice::smallest_ball(corners), true);
+    obstacles[t] = obstacle(corners, smallest_ball(corners), true);
   });
   parallel_for(subsegments, obstacle_grain, [&](std::size_t s) {
     const auto& [a, b] = surface.subsegments[s];
     const Point3 &from = surface.vertices[a], &to = surface.vertices[b];
-    obstacles[triangles + s] =
-        obstacle({from, to, to}, lattice::smallest_ball(from, to), !in_triangle[a] || !in_triangle[b]);
+    obstacles[triangles + s] = obstacle({from, to, to}, smallest_ball(from, to), !in_triangle[a] || !in_triangle[b]);
   });
   for (std::size_t v = 0; v < in_triangle.size(); ++v) {
     const Point3& p = surface.vertices[v];

@@ -87,9 +87,7 @@ class BoxTree {
     std::uint32_t node;
     double lower;
   };
-  Item item_at(std::size_t place) const {
-    return {items_[place], boxes_[place], sizes_.empty() ? 0 : sizes_[place]};
-  }
+  Item item_at(std::size_t place) const { return {items_[place], boxes_[place], sizes_.empty() ? 0 : sizes_[place]}; }
   template <class Lower>
   Visit look_at(std::uint32_t node, const Lower& lower) const {
     return {node, is_empty(nodes_[node]) ? HUGE_VAL : lower(nodes_[node], sizes_.empty() ? 0 : least_sizes_[node])};

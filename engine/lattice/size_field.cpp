@@ -167,10 +167,10 @@ double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) co
 bool InterpolatedSizes::is_below(const Box& box, double bound) const {
   const auto least_if_meeting = [&](const Box& other, double size) { return other.meets(box) ? size : HUGE_VAL; };
   if (tetrahedra_.any_below(bound, least_if_meeting,
-                      [&](const BoxTree::Item& item) { return least_in(box, item.number) < bound; }))
+                            [&](const BoxTree::Item& item) { return least_in(box, item.number) < bound; }))
     return true;
-  const bool meets = tetrahedra_.any_below(HUGE_VAL, least_if_meeting,
-                                     [&](const BoxTree::Item& item) { return least_in(box, item.number) < HUGE_VAL; });
+  const bool meets = tetrahedra_.any_below(
+      HUGE_VAL, least_if_meeting, [&](const BoxTree::Item& item) { return least_in(box, item.number) < HUGE_VAL; });
   return !meets && is_below_outside(box, bound);
 }
 

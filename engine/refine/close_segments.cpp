@@ -6,7 +6,7 @@
 
 #include "engine/base/index_lists.h"
 #include "engine/geometry/box_tree.h"
-#include "engine/geometry/closest_on_segment.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/protection/segment_chains.h"
 #include "engine/refine/segment_fans.h"
 

@@ -10,8 +10,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/geometry/box_tree.h"
-#include "engine/geometry/closest_on_segment.h"
-#include "engine/geometry/closest_on_triangle.h"
+#include "engine/geometry/closest_point.h"
 
 namespace ccdt::refine {
 
@@ -59,11 +58,6 @@ constexpr double of_strip_cube = 60, of_wall_cube = 2;
 /// At most this many pieces of walls are measured for one length. Two solids that nearly touch would need any number of
 /// them.
 constexpr std::size_t most_pieces = 200000;
-
-Point3 nearest_on_triangle(const Triangle& t, const Point3& p) {
-  const std::array weights = closest_on_triangle(p, t);
-  return t[0] + (weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0]));
-}
 
 /// The same triangle, with the longest edge between its first two corners.
 Triangle longest_edge_first(const Triangle& t) {
@@ -313,7 +307,7 @@ class Walls {
     const auto try_triangle = [&](std::uint32_t number) {
       const FacetTriangle& t = triangles_[number];
       if (met_by_[t.facet] == facet) return;
-      const Point3 across = nearest_on_triangle(t.corners, p) - p;
+      const Point3 across = weighted_point(closest_on_triangle(p, t.corners), t.corners) - p;
       const double found = length(across);
       if (found >= width || dot(across, direction) <= 0.5 * found) return;
       width = found;

@@ -11,7 +11,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/base/union_find.h"
 #include "engine/geometry/box_tree.h"
-#include "engine/geometry/closest_on_segment.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
 
