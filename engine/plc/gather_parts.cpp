@@ -14,10 +14,10 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/geometry/box_tree.h"
+#include "engine/geometry/contacts.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/planar/triangulation.h"
 #include "engine/plc/bent_facets.h"
-#include "engine/plc/find_overlaps.h"
 #include "engine/plc/input_faults.h"
 #include "engine/plc/projected_plane.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/geometry/contacts.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/geometry/predicates.h"
 
@@ -13,14 +14,13 @@ namespace {
 
 using plc::VertexTriple;
 using Triangle = std::array<Point3, 3>;
-using Signs = std::array<int, 3>;
 
 /// A triangle with what is known about it in a pair.
 struct Member {
   std::uint32_t number;
   VertexTriple corners;
   Triangle points;
-  Signs sides;                         ///< of the corners, against the plane of the other triangle
+  Sides sides;                         ///< of the corners, against the plane of the other triangle
   std::array<bool, 3> is_common = {};  ///< is the corner one of the other triangle too?
 };
 
@@ -49,14 +49,6 @@ struct EndPoints {
     is_only_common = is_only_common && is_corner;
   }
 };
-
-/// Is the point where the edge from p to q passes the plane of a triangle in the triangle?
-bool passes_through(const Point3& p, const Point3& q, const Triangle& t) {
-  const int u = numbers::orient3d(p, q, t[0], t[1]), v = numbers::orient3d(p, q, t[1], t[2]);
-  if (u * v < 0) return false;
-  const int w = numbers::orient3d(p, q, t[2], t[0]);
-  return u * w >= 0 && v * w >= 0;
-}
 
 bool has_edge(const VertexTriple& t, VertexId a, VertexId b) {
   return plc::has_corner(t, a) && plc::has_corner(t, b);
@@ -112,17 +104,12 @@ void cut_along_edges(const Member& one, const Member& other, std::vector<Cut>& c
   }
 }
 
-bool is_on_one_side(const Signs& sides) {
-  const auto [least, most] = std::minmax({sides[0], sides[1], sides[2]});
-  return least > 0 || most < 0;
-}
-
 void find_cuts_of(std::span<const Point3> vertices, const plc::TriangleSet& triangles, const plc::TrianglePair& pair,
                   std::vector<Cut>& cuts) {
   const VertexTriple &first = triangles.corners[pair.first], &second = triangles.corners[pair.second];
   const Member s = make_member(vertices, pair.first, first, second);
-  if (is_on_one_side(s.sides)) return;
-  if (s.sides == Signs{}) {
+  if (are_on_one_side(s.sides)) return;
+  if (s.sides == Sides{}) {
     const Member t = make_member(vertices, pair.second, second, first);
     cut_along_edges(s, t, cuts);
     cut_along_edges(t, s, cuts);
@@ -130,7 +117,7 @@ void find_cuts_of(std::span<const Point3> vertices, const plc::TriangleSet& tria
   }
   if (std::ranges::count(s.is_common, true) >= 2) return;
   const Member t = make_member(vertices, pair.second, second, first);
-  if (!is_on_one_side(t.sides)) cut_across(s, t, cuts);
+  if (!are_on_one_side(t.sides)) cut_across(s, t, cuts);
 }
 
 }  // namespace

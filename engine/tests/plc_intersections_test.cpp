@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/geometry/box_tree.h"
+#include "engine/geometry/contacts.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
@@ -75,7 +76,7 @@ TEST(PlcIntersections, TrianglesMeetIfNoAxisSeparatesThem) {
     const int extent = 2 + i % 5;
     const Triangle s = random_triangle(random, extent), t = random_triangle(random, extent);
     const bool disjoint = are_disjoint(list(s), list(t));
-    ASSERT_EQ(!plc::meet_triangles(s, t).has_value(), disjoint) << "round " << i;
+    ASSERT_EQ(!meet_triangles(s, t).has_value(), disjoint) << "round " << i;
     apart += disjoint;
   }
   EXPECT_GT(apart, rounds / 10);
@@ -87,9 +88,8 @@ TEST(PlcIntersections, SegmentsMeetTrianglesAndSegmentsIfNoAxisSeparatesThem) {
   for (int i = 0; i < 60000; ++i) {
     const int extent = 2 + i % 5;
     const Triangle t = random_triangle(random, extent), s = random_triangle(random, extent);
-    ASSERT_EQ(!plc::meet_segment_triangle(s[0], s[1], t).has_value(), are_disjoint({s[0], s[1]}, list(t)))
-        << "round " << i;
-    ASSERT_EQ(!plc::meet_segments(s[0], s[1], t[0], t[1]).has_value(), are_disjoint({s[0], s[1]}, {t[0], t[1]}))
+    ASSERT_EQ(!meet_segment_triangle(s[0], s[1], t).has_value(), are_disjoint({s[0], s[1]}, list(t))) << "round " << i;
+    ASSERT_EQ(!meet_segments(s[0], s[1], t[0], t[1]).has_value(), are_disjoint({s[0], s[1]}, {t[0], t[1]}))
         << "round " << i;
   }
 }
@@ -115,7 +115,7 @@ TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutThe
     const std::vector<Point3> s_all = {100 * s[0], 100 * s[1], 100 * s[2]},
                               t_all = {100 * t[0], 100 * t[1], 100 * t[2]};
     const bool disjoint = are_disjoint(s_cut, t_all) && are_disjoint(s_all, t_cut);
-    ASSERT_EQ(!plc::meet_triangles_at_corner(s, t).has_value(), disjoint) << "round " << i;
+    ASSERT_EQ(!meet_triangles_at_corner(s, t).has_value(), disjoint) << "round " << i;
     meeting += !disjoint;
   }
   EXPECT_GT(meeting, 1000);
@@ -138,9 +138,8 @@ TEST(PlcIntersections, TheQuickTestAlongAnAxisIsNeverWrongAndMostlyAnswersInAPla
           for (Point3& p : *u) flatten(p);
     } while (numbers::collinear(s[0], s[1], s[2]) || numbers::collinear(t[0], t[1], t[2]));
     if (common == 1 && (s[1] == t[1] || s[1] == t[2] || s[2] == t[1] || s[2] == t[2])) continue;
-    const bool meet =
-        common == 1 ? plc::meet_triangles_at_corner(s, t).has_value() : plc::meet_triangles(s, t).has_value();
-    const bool apart = plc::are_apart_seen_along(axis, s, t, common);
+    const bool meet = common == 1 ? meet_triangles_at_corner(s, t).has_value() : meet_triangles(s, t).has_value();
+    const bool apart = are_apart_seen_along(axis, s, t, common);
     ASSERT_FALSE(apart && meet) << "round " << i;
     disjoint += flat && !meet;
     separated += flat && apart;
@@ -151,9 +150,8 @@ TEST(PlcIntersections, TheQuickTestAlongAnAxisIsNeverWrongAndMostlyAnswersInAPla
 TEST(PlcIntersections, TrianglesWithACommonEdgeAreApartIfItDividesThem) {
   const double q = numbers::DyadicGrid::quantum;
   const Point3 a, b = {4 * q, 0, 0}, c = {q, q, 0};
-  for (int y = -3; y <= 3; ++y)
-    EXPECT_EQ(plc::are_apart_seen_along(2, {a, b, c}, {a, b, {2 * q, y * q, q}}, 2), y < 0) << y;
-  EXPECT_FALSE(plc::are_apart_seen_along(0, {a, b, c}, {a, b, {q, -q, 0}}, 2)) << "they are not seen from there";
+  for (int y = -3; y <= 3; ++y) EXPECT_EQ(are_apart_seen_along(2, {a, b, c}, {a, b, {2 * q, y * q, q}}, 2), y < 0) << y;
+  EXPECT_FALSE(are_apart_seen_along(0, {a, b, c}, {a, b, {q, -q, 0}}, 2)) << "they are not seen from there";
 }
 
 TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {
@@ -240,7 +238,7 @@ TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
     for (std::uint32_t j = i + 1; j < triangles.size(); ++j) {
       const plc::VertexTriple &s = triangles.corners[i], &t = triangles.corners[j];
       const bool have_common = std::ranges::find_first_of(s, t) != s.end();
-      if (!have_common && plc::meet_triangles(plc::points_of(vertices, s), plc::points_of(vertices, t))) {
+      if (!have_common && meet_triangles(plc::points_of(vertices, s), plc::points_of(vertices, t))) {
         EXPECT_TRUE(std::ranges::binary_search(all, std::pair(i, j))) << i << " " << j;
       }
     }
