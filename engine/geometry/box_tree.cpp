@@ -1,5 +1,7 @@
 #include "engine/geometry/box_tree.h"
 
+#include <algorithm>
+
 #include "engine/base/morton.h"
 
 namespace ccdt {

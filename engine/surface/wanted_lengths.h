@@ -28,7 +28,7 @@ class EdgeLengths {
     double radius, wanted;
   };
 
-  explicit EdgeLengths(double usual) : usual_(usual), reaches_({}) {}
+  explicit EdgeLengths(double usual) : usual_(usual) {}
 
   double usual() const { return usual_; }
   double at(const Point3& p) const;

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 
@@ -213,6 +215,52 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
     std::ranges::sort(met);
     EXPECT_EQ(met, should_meet);
   }
+}
+
+TEST(PlcIntersections, TheBoxTreeFindsTheLeastBoundOfAllItems) {
+  std::mt19937 random(10);
+  for (const std::size_t count : {0, 1, 4, 5, 17, 200}) {
+    RawVector<Box> boxes;
+    RawVector<double> sizes;
+    for (std::size_t i = 0; i < count; ++i) {
+      boxes.push_back(hull(box_of(random_point(random, 12)), box_of(random_point(random, 12))));
+      sizes.push_back(double(random() % 20) * DyadicGrid::quantum);
+    }
+    const Point3 p = random_point(random, 12);
+    const auto bound = [&](const Box& box, double size) { return size + std::sqrt(squared_distance(box, p)); };
+    double expected = HUGE_VAL, least = HUGE_VAL;
+    for (std::size_t i = 0; i < count; ++i) expected = std::min(expected, bound(boxes[i], sizes[i]));
+    const BoxTree tree(boxes, sizes);
+    EXPECT_FALSE(tree.any_below(least, bound, [&](const BoxTree::Item& item) {
+      EXPECT_EQ(item.size, sizes[item.number]);
+      least = bound(item.box, item.size);
+      return false;
+    }));
+    EXPECT_EQ(least, expected);
+    EXPECT_FALSE(tree.any_below(expected, bound, [](const BoxTree::Item&) { return true; })) << "none is below";
+    EXPECT_EQ(tree.any_below(HUGE_VAL, bound, [](const BoxTree::Item&) { return true; }), count > 0);
+  }
+}
+
+TEST(PlcIntersections, CommonCornersComeFirstInTheirOrder) {
+  std::array<int, 3> s = {5, 7, 9}, t = {9, 8, 5};
+  EXPECT_EQ(put_common_first(s, t), 2);
+  EXPECT_EQ(s, (std::array{9, 5, 7}));
+  EXPECT_EQ(t, (std::array{5, 9, 8}));
+  t = {1, 2, 7};
+  EXPECT_EQ(put_common_first(s, t), 1);
+  EXPECT_EQ(s, (std::array{7, 9, 5}));
+  EXPECT_EQ(t, (std::array{7, 1, 2}));
+  t = {1, 2, 3};
+  EXPECT_EQ(put_common_first(s, t), 0);
+}
+
+TEST(PlcIntersections, TrianglesOnOneSideOfTheirCommonEdgeMeetElsewhere) {
+  constexpr double q = DyadicGrid::quantum;
+  const Point3 a{0, 0, 0}, b{4 * q, 0, 0}, c{q, 3 * q, 0};
+  EXPECT_TRUE(meet_elsewhere({a, b, c}, {b, a, {3 * q, q, 0}}, 2));
+  EXPECT_FALSE(meet_elsewhere({a, b, c}, {b, a, {3 * q, -q, 0}}, 2)) << "on the other side";
+  EXPECT_FALSE(meet_elsewhere({a, b, c}, {b, a, {3 * q, q, 1}}, 2)) << "not in one plane";
 }
 
 TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
