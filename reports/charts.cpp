@@ -1,6 +1,7 @@
 #include "reports/charts.h"
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>

@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "bench/benchmarks/benchmark_main.h"
+#include "engine/geometry/predicates.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
-#include "engine/numbers/predicates.h"
 #include "engine/tets/cell_complex.h"
 
 namespace ccdt::benchmarks {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
-/// The points that the benchmarks run on, in grid units (engine/numbers/grid.h); the same on every machine.
+/// The points that the benchmarks run on, in grid units (engine/geometry/grid.h); the same on every machine.
 namespace ccdt::benchmarks {
 
 /// Uniformly distributed in a cube, snapped to the quantum as the vertices of an input are.

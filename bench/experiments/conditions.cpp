@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "bench/experiments/conforming/smallest_spheres.h"
 #include "bench/experiments/existence_experiments.h"

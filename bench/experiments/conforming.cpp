@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "bench/experiments/conforming/conforming_delaunay.h"
 #include "bench/experiments/existence_experiments.h"

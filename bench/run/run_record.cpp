@@ -90,7 +90,6 @@ inline constexpr auto fields<VerifiedMesh> = std::tuple(field("right", &Verified
 
 namespace {
 
-
 constexpr auto fields_before_seconds =
     std::tuple(optional_field("command", &RunRecord::command), field("environment", &RunRecord::environment),
                field("counts", &RunRecord::counts));

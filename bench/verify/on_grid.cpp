@@ -3,7 +3,7 @@
 #include <array>
 #include <map>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
 namespace ccdt::verify {
 

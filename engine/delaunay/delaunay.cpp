@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insert_vertices.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/base/index.h"
 #include "engine/base/progress.h"
 #include "engine/base/raw_vector.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::delaunay {
 

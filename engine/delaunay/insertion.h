@@ -9,7 +9,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::delaunay {
 

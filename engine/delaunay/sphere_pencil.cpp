@@ -1,6 +1,8 @@
 #include "engine/delaunay/sphere_pencil.h"
 
-#include "engine/numbers/predicates.h"
+#include <algorithm>
+
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {

@@ -10,7 +10,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/fourth_vertex.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {

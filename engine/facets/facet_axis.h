@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "engine/base/point.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::facets {
 
@@ -17,7 +17,7 @@ using FacetAxis = std::int8_t;
 
 /// \param normal  of the facet: the sum over its faces
 inline FacetAxis axis_along(const Point3& normal) {
-  const int axis = plc::dominant_axis(normal);
+  const int axis = dominant_axis(normal);
   return static_cast<FacetAxis>(as_array(normal)[axis] < 0 ? -axis - 1 : axis + 1);
 }
 

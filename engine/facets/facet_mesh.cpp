@@ -14,9 +14,9 @@
 #include "engine/base/shared_progress.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/planar/triangulation.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::facets {
 namespace {
@@ -92,7 +92,7 @@ FacetFrame frame_of(std::span<const Triangle> triangles, Vertices vertices) {
     scale = std::max(scale, squared_length(vertices[t[0]].point - base));
   }
   normal = (1 / std::sqrt(squared_length(normal))) * normal;
-  return {normal, plc::dominant_axis(normal), std::sqrt(scale)};
+  return {normal, dominant_axis(normal), std::sqrt(scale)};
 }
 
 /// The least power of two that is not less than a positive number.

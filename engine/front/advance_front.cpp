@@ -10,9 +10,9 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/apex_finders.h"
 #include "engine/front/find_swallowed.h"
+#include "engine/geometry/predicates.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
-#include "engine/numbers/predicates.h"
 
 namespace ccdt::front {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::front {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::front {
 namespace {

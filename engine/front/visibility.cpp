@@ -1,7 +1,7 @@
 #include "engine/front/visibility.h"
 
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/filters.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::front {
 namespace {

@@ -7,7 +7,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/index.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/plane_steps.h"
 
 namespace ccdt::improve {

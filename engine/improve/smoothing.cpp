@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::improve {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::lattice {
 

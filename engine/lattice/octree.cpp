@@ -10,8 +10,8 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/filters.h"
 #include "engine/lattice/inside_test.h"
-#include "engine/numbers/filters.h"
 
 namespace ccdt::lattice {
 

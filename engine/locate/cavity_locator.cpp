@@ -8,7 +8,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/union_find.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::locate {
 namespace {

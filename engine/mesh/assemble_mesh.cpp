@@ -13,7 +13,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
 #include "engine/facets/facet_axis.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::mesh {
 namespace {

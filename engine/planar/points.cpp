@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::planar {
 

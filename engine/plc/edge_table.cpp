@@ -7,8 +7,8 @@
 #include "engine/base/merge_sort.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 namespace {

@@ -9,9 +9,9 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/shared_union_find.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/input_faults.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 namespace {

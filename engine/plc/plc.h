@@ -8,7 +8,7 @@
 
 #include "engine/base/index.h"
 #include "engine/base/point.h"
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
 namespace ccdt::plc {
 

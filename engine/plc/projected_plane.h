@@ -5,9 +5,9 @@
 
 #include "engine/base/index.h"
 #include "engine/base/point.h"
-#include "engine/numbers/grid.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/grid.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/parallel.h"
+#include "engine/geometry/box_tree.h"
 
 namespace ccdt::plc {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::protection {
 namespace {

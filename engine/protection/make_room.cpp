@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/predicates.h"
 #include "engine/protection/voronoi_face.h"
 
 namespace ccdt::protection {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/numbers/grid.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/grid.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::refine {
 namespace {
@@ -59,7 +59,7 @@ FacetPlane::FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool 
     : points_(points),
       exactly_flat_(exactly_flat),
       normal_(normalized(plc::sum_of_normals(triangles, points))),
-      axis_(plc::dominant_axis(normal_)) {
+      axis_(dominant_axis(normal_)) {
   if (exactly_flat_) {
     apex_ = points[triangles[0][0]];
     double extent = 1;

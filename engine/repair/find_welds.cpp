@@ -5,14 +5,13 @@
 #include <iterator>
 #include <optional>
 
-#include "engine/base/box_tree.h"
-#include "engine/base/closest_on_segment.h"
-#include "engine/base/closest_on_triangle.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/closest_point.h"
+#include "engine/geometry/exact_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
-#include "engine/repair/exact_points.h"
 
 namespace ccdt::repair {
 namespace {
@@ -33,8 +32,8 @@ EdgeEnds edge_of(const VertexTriple& t, std::size_t k) {
 std::optional<std::array<double, 2>> nearest_on_lines(const Point3& p, const Point3& u, const Point3& q,
                                                       const Point3& v) {
   const auto product = [](const Point3& a, const Point3& b) {
-    const plc::IntegerPoint x = plc::to_integers(a), y = plc::to_integers(b);
-    return Long(plc::Wide(x[0]) * y[0] + plc::Wide(x[1]) * y[1] + plc::Wide(x[2]) * y[2]);
+    const IntegerPoint x = to_integers(a), y = to_integers(b);
+    return Long(Wide(x[0]) * y[0] + Wide(x[1]) * y[1] + Wide(x[2]) * y[2]);
   };
   // Differences of these are tiny for nearly parallel lines.
   const Long uu = product(u, u), uv = product(u, v), vv = product(v, v);

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::repair {

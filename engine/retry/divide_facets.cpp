@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/facets/facet_mesh.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/protection/protect_edges.h"
 
 namespace ccdt::retry {
@@ -176,7 +176,7 @@ class FacetDivider {
 }  // namespace
 
 bool overlap(const plc::FacetPart& one, const plc::FacetPart& other) {
-  const auto axis = static_cast<std::size_t>(plc::dominant_axis(one.normal));
+  const auto axis = static_cast<std::size_t>(dominant_axis(one.normal));
   return have_close_normals(one, other) && !is_beyond_an_edge(one.corners, other.corners, axis) &&
          !is_beyond_an_edge(other.corners, one.corners, axis);
 }

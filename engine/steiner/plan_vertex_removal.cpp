@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tets/crossing_faces.h"
 #include "engine/tets/swaps.h"
 

@@ -84,7 +84,8 @@ bool is_in_ball(const Point3& a, const Point3& b, const Point3& c, const Point3&
 
 bool is_near_surface(const Shape& shape, const Point3& p, double clearance, double factor) {
   const auto near = [&](const Point3& a, const Point3& b, const Point3& c) {
-    return is_in_ball(a, b, c, p, factor) || lattice::squared_distance({a, b, c}, p) <= clearance * clearance;
+    return is_in_ball(a, b, c, p, factor) ||
+           squared_distance(lattice::TrianglePoints{a, b, c}, p) <= clearance * clearance;
   };
   return std::ranges::any_of(shape.triangles,
                              [&](const auto& t) {

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "engine/plc/find_overlaps.h"
+#include "engine/geometry/contacts.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tets/shake_cells.h"
 
@@ -129,8 +129,8 @@ bool meet(const tets::CellComplex& x, Triangle s, Triangle t) {
   const auto points = [&](const Triangle& f) { return std::array{x.point(f[0]), x.point(f[1]), x.point(f[2])}; };
   const auto common = std::ranges::count_if(s, is_common(t));
   if (common > 1) return common > 2;
-  return common == 1 ? plc::meet_triangles_at_corner(points(s), points(t)).has_value()
-                     : plc::meet_triangles(points(s), points(t)).has_value();
+  return common == 1 ? meet_triangles_at_corner(points(s), points(t)).has_value()
+                     : meet_triangles(points(s), points(t)).has_value();
 }
 
 TEST(CrossingFaces, AreNotMadeByRandomChanges) {

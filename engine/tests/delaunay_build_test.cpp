@@ -5,7 +5,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tests/delaunay_checks.h"
 #include "engine/tests/delaunay_point_sets.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::test {
 namespace {

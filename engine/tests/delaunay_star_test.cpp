@@ -8,7 +8,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insertion.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tests/delaunay_checks.h"
 #include "engine/tests/delaunay_point_sets.h"
 

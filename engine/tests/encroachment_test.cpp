@@ -8,7 +8,7 @@
 
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/insertion.h"
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 #include "engine/tests/delaunay_point_sets.h"
 
 namespace ccdt {

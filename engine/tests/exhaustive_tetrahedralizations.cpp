@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::test {
 

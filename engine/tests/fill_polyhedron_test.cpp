@@ -7,7 +7,7 @@
 #include <map>
 #include <random>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/build_plc.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tests/plc_test_solids.h"

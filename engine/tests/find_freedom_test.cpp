@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/mesh_test_solids.h"

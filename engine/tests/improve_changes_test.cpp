@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/predicates.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/improve/insert_and_collapse.h"
-#include "engine/numbers/predicates.h"
 #include "engine/tests/improve_checks.h"
 #include "engine/tets/shake_cells.h"
 

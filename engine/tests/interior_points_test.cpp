@@ -10,10 +10,10 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/find_delaunay_faces.h"
+#include "engine/geometry/predicates.h"
 #include "engine/lattice/clear_sites.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesher.h"
-#include "engine/numbers/predicates.h"
 #include "engine/plc/build_plc.h"
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
@@ -149,7 +149,7 @@ TEST(ExhaustiveTetrahedralizations, FindBothOfFivePointsAndNoneOfSchoenhardtsPol
 TEST(InteriorPoints, OnePointOutsideTheDiametralSphereKnocksOutAProtectedEdge) {
   Protected p(tetrahedron_with_segment(), beside_segment);
   EXPECT_EQ(p.splits, 0u);  // it is a Delaunay edge as it is
-  EXPECT_FALSE(is_in_ball(lattice::smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
+  EXPECT_FALSE(is_in_ball(smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_EQ(p.insert(false), 1u);
   EXPECT_FALSE(p.has_edge(0, 4));
@@ -194,7 +194,7 @@ bool finds_constrained_delaunay(const Protected& p) {
 TEST(InteriorPoints, TheFrontFindsNoConstrainedDelaunayTetrahedraWhereExistenceHasEnded) {
   Protected p(dented_tetrahedron(), below_dent);
   EXPECT_EQ(p.splits, 0u);
-  EXPECT_FALSE(is_in_ball(lattice::smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
+  EXPECT_FALSE(is_in_ball(smallest_ball(p.plc.vertices[0], p.plc.vertices[4]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_TRUE(finds_constrained_delaunay(p));
   EXPECT_EQ(p.insert(false), 1u);
@@ -208,9 +208,9 @@ TEST(InteriorPoints, ThePaperSphereRuleDoesNotSaveTheEdge) {
   const facets::FacetMesh facets = facets::triangulate_facets(p.plc, p.surface.chains, p.delaunay);
   const auto& v = p.plc.vertices;
   for (const auto& [a, b, c] : facets.triangles)
-    EXPECT_FALSE(is_in_ball(lattice::smallest_ball(lattice::TrianglePoints{v[a], v[b], v[c]}), p.point));
+    EXPECT_FALSE(is_in_ball(smallest_ball(lattice::TrianglePoints{v[a], v[b], v[c]}), p.point));
   for (const plc::Segment& s : p.plc.segments)
-    EXPECT_FALSE(is_in_ball(lattice::smallest_ball(v[s.ends[0]], v[s.ends[1]]), p.point));
+    EXPECT_FALSE(is_in_ball(smallest_ball(v[s.ends[0]], v[s.ends[1]]), p.point));
   EXPECT_TRUE(p.has_edge(0, 4));
   EXPECT_EQ(p.insert(false), 1u);
   EXPECT_FALSE(p.has_edge(0, 4));

@@ -119,7 +119,7 @@ TEST(LatticePoints, AreMissingOnlyOutsideOrNearTheSurface) {
           const lattice::TrianglePoints c{shape.vertices[t.vertices[0]], shape.vertices[t.vertices[1]],
                                           shape.vertices[t.vertices[2]]};
           return in_smallest_sphere(c[0], c[1], c[2], q) ||
-                 std::sqrt(lattice::squared_distance(c, q)) < 1.01 * lattice::usual_clearance * edge_length;
+                 std::sqrt(squared_distance(c, q)) < 1.01 * lattice::usual_clearance * edge_length;
         });
         ASSERT_TRUE(near) << q.x << " " << q.y << " " << q.z;
       }
@@ -303,10 +303,10 @@ TEST(CellSize, HasFewBitsAndIsNear) {
 }
 
 TEST(SmallestBall, TouchesTheCornersOfAnAcuteTriangleAndTheLongestEdgeOfAnObtuseOne) {
-  const Ball acute = lattice::smallest_ball(lattice::TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
+  const Ball acute = smallest_ball(lattice::TrianglePoints{Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}});
   for (const Point3& p : {Point3{0, 0, 5}, {10, 0, 5}, {4, 8, 5}})
     EXPECT_NEAR(std::sqrt(squared_length(p - acute.center)), acute.radius, 1e-7);
-  const Ball obtuse = lattice::smallest_ball(lattice::TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
+  const Ball obtuse = smallest_ball(lattice::TrianglePoints{Point3{4, 1, 0}, {0, 0, 0}, {10, 0, 0}});
   EXPECT_NEAR(obtuse.center.x, 5, 1e-12);
   EXPECT_NEAR(obtuse.center.y, 0, 1e-12);
   EXPECT_NEAR(obtuse.radius, 5, 1e-7);

@@ -8,8 +8,8 @@
 #include <numbers>
 #include <vector>
 
+#include "engine/geometry/grid.h"
 #include "engine/lattice/place_lattice_points.h"
-#include "engine/numbers/grid.h"
 
 namespace ccdt::test {
 

@@ -7,9 +7,9 @@
 
 #include "engine/base/index_lists.h"
 #include "engine/delaunay/delaunay.h"
+#include "engine/geometry/predicates.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
-#include "engine/numbers/predicates.h"
 
 namespace ccdt {
 namespace {

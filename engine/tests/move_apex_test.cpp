@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "engine/geometry/predicates.h"
 #include "engine/improve/smoothing.h"
-#include "engine/numbers/predicates.h"
 #include "engine/tests/star_samples.h"
 
 namespace ccdt {

@@ -12,7 +12,7 @@ namespace ccdt::test {
 
 using Random = std::mt19937_64;
 
-/// The largest coordinate of the dyadic grid (engine/numbers/grid.h).
+/// The largest coordinate of the dyadic grid (engine/geometry/grid.h).
 inline constexpr std::int64_t largest_coordinate = (std::int64_t{1} << 51) + (1 << 20);
 
 /// Ways to draw points on which signs are hard to tell, or zero.

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/filters.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tests/numbers_cases.h"
 
 namespace ccdt {

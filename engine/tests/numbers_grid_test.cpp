@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 #include "engine/tests/numbers_cases.h"
 
 namespace ccdt {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tests/numbers_cases.h"
 #include "engine/tests/numbers_reference.h"
 

@@ -5,7 +5,7 @@
 
 #include "engine/base/point.h"
 
-/// The signs of engine/numbers/predicates.h by other means: CGAL's exact kernel, and determinants in GMP's integers in
+/// The signs of engine/geometry/predicates.h by other means: CGAL's exact kernel, and determinants in GMP's integers in
 /// which every infinitesimal is a tiny number indeed.
 namespace ccdt::test::reference {
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tests/numbers_cases.h"
 #include "engine/tests/numbers_reference.h"
 

@@ -14,7 +14,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/find_delaunay_faces.h"
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 #include "engine/plc/build_plc.h"
 
 // Triangles that are faces of the Delaunay tetrahedralization of all vertices are not tested with each other. The

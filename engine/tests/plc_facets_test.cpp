@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/base/flatness.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tests/plc_test_solids.h"
 
 namespace ccdt {

@@ -1,15 +1,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <random>
 #include <utility>
 
-#include "engine/base/box_tree.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/contacts.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_overlaps.h"
-#include "engine/plc/integer_points.h"
 #include "engine/tests/plc_test_solids.h"
 
 namespace ccdt {
@@ -75,7 +78,7 @@ TEST(PlcIntersections, TrianglesMeetIfNoAxisSeparatesThem) {
     const int extent = 2 + i % 5;
     const Triangle s = random_triangle(random, extent), t = random_triangle(random, extent);
     const bool disjoint = are_disjoint(list(s), list(t));
-    ASSERT_EQ(!plc::meet_triangles(s, t).has_value(), disjoint) << "round " << i;
+    ASSERT_EQ(!meet_triangles(s, t).has_value(), disjoint) << "round " << i;
     apart += disjoint;
   }
   EXPECT_GT(apart, rounds / 10);
@@ -87,9 +90,8 @@ TEST(PlcIntersections, SegmentsMeetTrianglesAndSegmentsIfNoAxisSeparatesThem) {
   for (int i = 0; i < 60000; ++i) {
     const int extent = 2 + i % 5;
     const Triangle t = random_triangle(random, extent), s = random_triangle(random, extent);
-    ASSERT_EQ(!plc::meet_segment_triangle(s[0], s[1], t).has_value(), are_disjoint({s[0], s[1]}, list(t)))
-        << "round " << i;
-    ASSERT_EQ(!plc::meet_segments(s[0], s[1], t[0], t[1]).has_value(), are_disjoint({s[0], s[1]}, {t[0], t[1]}))
+    ASSERT_EQ(!meet_segment_triangle(s[0], s[1], t).has_value(), are_disjoint({s[0], s[1]}, list(t))) << "round " << i;
+    ASSERT_EQ(!meet_segments(s[0], s[1], t[0], t[1]).has_value(), are_disjoint({s[0], s[1]}, {t[0], t[1]}))
         << "round " << i;
   }
 }
@@ -115,7 +117,7 @@ TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutThe
     const std::vector<Point3> s_all = {100 * s[0], 100 * s[1], 100 * s[2]},
                               t_all = {100 * t[0], 100 * t[1], 100 * t[2]};
     const bool disjoint = are_disjoint(s_cut, t_all) && are_disjoint(s_all, t_cut);
-    ASSERT_EQ(!plc::meet_triangles_at_corner(s, t).has_value(), disjoint) << "round " << i;
+    ASSERT_EQ(!meet_triangles_at_corner(s, t).has_value(), disjoint) << "round " << i;
     meeting += !disjoint;
   }
   EXPECT_GT(meeting, 1000);
@@ -138,9 +140,8 @@ TEST(PlcIntersections, TheQuickTestAlongAnAxisIsNeverWrongAndMostlyAnswersInAPla
           for (Point3& p : *u) flatten(p);
     } while (numbers::collinear(s[0], s[1], s[2]) || numbers::collinear(t[0], t[1], t[2]));
     if (common == 1 && (s[1] == t[1] || s[1] == t[2] || s[2] == t[1] || s[2] == t[2])) continue;
-    const bool meet =
-        common == 1 ? plc::meet_triangles_at_corner(s, t).has_value() : plc::meet_triangles(s, t).has_value();
-    const bool apart = plc::are_apart_seen_along(axis, s, t, common);
+    const bool meet = common == 1 ? meet_triangles_at_corner(s, t).has_value() : meet_triangles(s, t).has_value();
+    const bool apart = are_apart_seen_along(axis, s, t, common);
     ASSERT_FALSE(apart && meet) << "round " << i;
     disjoint += flat && !meet;
     separated += flat && apart;
@@ -151,9 +152,8 @@ TEST(PlcIntersections, TheQuickTestAlongAnAxisIsNeverWrongAndMostlyAnswersInAPla
 TEST(PlcIntersections, TrianglesWithACommonEdgeAreApartIfItDividesThem) {
   const double q = numbers::DyadicGrid::quantum;
   const Point3 a, b = {4 * q, 0, 0}, c = {q, q, 0};
-  for (int y = -3; y <= 3; ++y)
-    EXPECT_EQ(plc::are_apart_seen_along(2, {a, b, c}, {a, b, {2 * q, y * q, q}}, 2), y < 0) << y;
-  EXPECT_FALSE(plc::are_apart_seen_along(0, {a, b, c}, {a, b, {q, -q, 0}}, 2)) << "they are not seen from there";
+  for (int y = -3; y <= 3; ++y) EXPECT_EQ(are_apart_seen_along(2, {a, b, c}, {a, b, {2 * q, y * q, q}}, 2), y < 0) << y;
+  EXPECT_FALSE(are_apart_seen_along(0, {a, b, c}, {a, b, {q, -q, 0}}, 2)) << "they are not seen from there";
 }
 
 TEST(PlcIntersections, TurnsAboutAnEdgeAreThoseOfTheirAngles) {
@@ -217,6 +217,52 @@ TEST(PlcIntersections, TheBoxTreeFindsAllPairsAndAllBoxesOnce) {
   }
 }
 
+TEST(PlcIntersections, TheBoxTreeFindsTheLeastBoundOfAllItems) {
+  std::mt19937 random(10);
+  for (const std::size_t count : {0, 1, 4, 5, 17, 200}) {
+    RawVector<Box> boxes;
+    RawVector<double> sizes;
+    for (std::size_t i = 0; i < count; ++i) {
+      boxes.push_back(hull(box_of(random_point(random, 12)), box_of(random_point(random, 12))));
+      sizes.push_back(double(random() % 20) * DyadicGrid::quantum);
+    }
+    const Point3 p = random_point(random, 12);
+    const auto bound = [&](const Box& box, double size) { return size + std::sqrt(squared_distance(box, p)); };
+    double expected = HUGE_VAL, least = HUGE_VAL;
+    for (std::size_t i = 0; i < count; ++i) expected = std::min(expected, bound(boxes[i], sizes[i]));
+    const BoxTree tree(boxes, sizes);
+    EXPECT_FALSE(tree.any_below(least, bound, [&](const BoxTree::Item& item) {
+      EXPECT_EQ(item.size, sizes[item.number]);
+      least = bound(item.box, item.size);
+      return false;
+    }));
+    EXPECT_EQ(least, expected);
+    EXPECT_FALSE(tree.any_below(expected, bound, [](const BoxTree::Item&) { return true; })) << "none is below";
+    EXPECT_EQ(tree.any_below(HUGE_VAL, bound, [](const BoxTree::Item&) { return true; }), count > 0);
+  }
+}
+
+TEST(PlcIntersections, CommonCornersComeFirstInTheirOrder) {
+  std::array<int, 3> s = {5, 7, 9}, t = {9, 8, 5};
+  EXPECT_EQ(put_common_first(s, t), 2);
+  EXPECT_EQ(s, (std::array{9, 5, 7}));
+  EXPECT_EQ(t, (std::array{5, 9, 8}));
+  t = {1, 2, 7};
+  EXPECT_EQ(put_common_first(s, t), 1);
+  EXPECT_EQ(s, (std::array{7, 9, 5}));
+  EXPECT_EQ(t, (std::array{7, 1, 2}));
+  t = {1, 2, 3};
+  EXPECT_EQ(put_common_first(s, t), 0);
+}
+
+TEST(PlcIntersections, TrianglesOnOneSideOfTheirCommonEdgeMeetElsewhere) {
+  constexpr double q = DyadicGrid::quantum;
+  const Point3 a{0, 0, 0}, b{4 * q, 0, 0}, c{q, 3 * q, 0};
+  EXPECT_TRUE(meet_elsewhere({a, b, c}, {b, a, {3 * q, q, 0}}, 2));
+  EXPECT_FALSE(meet_elsewhere({a, b, c}, {b, a, {3 * q, -q, 0}}, 2)) << "on the other side";
+  EXPECT_FALSE(meet_elsewhere({a, b, c}, {b, a, {3 * q, q, 1}}, 2)) << "not in one plane";
+}
+
 TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
   std::mt19937 random(8);
   std::vector<Point3> vertices(600);
@@ -225,7 +271,7 @@ TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
   plc::TriangleSet triangles;
   while (triangles.size() < 1000) {
     const plc::VertexTriple t = {VertexId(vertex(random)), VertexId(vertex(random)), VertexId(vertex(random))};
-    if (!plc::has_no_area(plc::points_of(vertices, t))) triangles.add(t, 0, 0);
+    if (!has_no_area(plc::points_of(vertices, t))) triangles.add(t, 0, 0);
   }
   const auto sorted_pairs = [&](std::span<const std::uint8_t> is_doubtful) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
@@ -240,7 +286,7 @@ TEST(PlcIntersections, CloseTrianglesAreThoseOfAllPairsWithADoubtfulOne) {
     for (std::uint32_t j = i + 1; j < triangles.size(); ++j) {
       const plc::VertexTriple &s = triangles.corners[i], &t = triangles.corners[j];
       const bool have_common = std::ranges::find_first_of(s, t) != s.end();
-      if (!have_common && plc::meet_triangles(plc::points_of(vertices, s), plc::points_of(vertices, t))) {
+      if (!have_common && meet_triangles(plc::points_of(vertices, s), plc::points_of(vertices, t))) {
         EXPECT_TRUE(std::ranges::binary_search(all, std::pair(i, j))) << i << " " << j;
       }
     }

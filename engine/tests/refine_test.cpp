@@ -11,7 +11,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/portable_math.h"
 #include "engine/base/union_find.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/refine/close_segments.h"
 #include "engine/refine/refine_plc.h"
 #include "engine/refine/segment_fans.h"

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/contacts.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
-#include "engine/plc/find_overlaps.h"
-#include "engine/plc/integer_points.h"
 #include "engine/repair/cut_crossings.h"
 #include "engine/tests/plc_test_solids.h"
 #include "models/solids.h"
@@ -34,18 +34,18 @@ bool are_folded(std::span<const Point3> points, const plc::VertexTriple& s, cons
   const Point3 &a = points[common[0]], &b = points[common[1]];
   const Point3 &c = points[plc::apex_over(s, common[0], common[1])],
                &d = points[plc::apex_over(t, common[0], common[1])];
-  const int axis = plc::dominant_axis({a, b, c});
-  return numbers::orient3d(a, b, c, d) == 0 && plc::orient_along(axis, a, b, c) == plc::orient_along(axis, a, b, d);
+  const int axis = dominant_axis({a, b, c});
+  return numbers::orient3d(a, b, c, d) == 0 && orient_along(axis, a, b, c) == orient_along(axis, a, b, d);
 }
 
 bool do_meet(std::span<const Point3> points, plc::VertexTriple s, plc::VertexTriple t) {
   const auto common = std::ranges::count_if(s, [&](VertexId v) { return plc::has_corner(t, v); });
   if (common == 3) return true;
   if (common == 2) return are_folded(points, s, t);
-  if (common == 0) return plc::meet_triangles(plc::points_of(points, s), plc::points_of(points, t)).has_value();
+  if (common == 0) return meet_triangles(plc::points_of(points, s), plc::points_of(points, t)).has_value();
   while (!plc::has_corner(t, s[0])) std::ranges::rotate(s, s.begin() + 1);
   while (t[0] != s[0]) std::ranges::rotate(t, t.begin() + 1);
-  return plc::meet_triangles_at_corner(plc::points_of(points, s), plc::points_of(points, t)).has_value();
+  return meet_triangles_at_corner(plc::points_of(points, s), plc::points_of(points, t)).has_value();
 }
 
 /// Pairs of triangles that meet in more than common corners and edges, by the tests of the checks of a PLC.

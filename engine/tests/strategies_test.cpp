@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "engine/geometry/predicates.h"
 #include "engine/io/plc_files.h"
-#include "engine/numbers/predicates.h"
 #include "engine/tests/front_stages.h"
 #include "engine/tests/mesh_checks.h"
 #include "engine/tests/mesh_test_solids.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/front/find_apex.h"
+#include "engine/geometry/predicates.h"
 #include "engine/locate/grid_locator.h"
-#include "engine/numbers/predicates.h"
 
 // Triangles that may cross, and vertices that they hide: in grid units, so that every sign is exact.
 

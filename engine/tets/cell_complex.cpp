@@ -8,7 +8,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_buckets.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tets/crossing_faces.h"
 
 namespace ccdt::tets {

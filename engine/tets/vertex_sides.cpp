@@ -4,8 +4,8 @@
 #include <cstring>
 
 #include "engine/base/box.h"
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/filters.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 

@@ -6,8 +6,9 @@
 #include <limits>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/balls.h"
+#include "engine/geometry/box_tree.h"
 
 namespace ccdt::conforming {
 namespace {
@@ -37,11 +38,11 @@ int exact_side(const WideVector& u, const WideVector& v, const WideVector& w) {
 
 /// A box around the smallest sphere; none if rounding could make it too small, as for needles.
 bool find_box(const std::array<Point3, 3>& t, Box& box) {
-  const Point3 u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
+  const Point3 u = t[1] - t[0], v = t[2] - t[0];
   constexpr double least_sine = 1e-6;
-  const double area2 = squared_length(n);
+  const double area2 = squared_length(cross(u, v));
   if (!(area2 > least_sine * least_sine * squared_length(u) * squared_length(v))) return false;
-  const Point3 to_center = (0.5 / area2) * (squared_length(u) * cross(v, n) + squared_length(v) * cross(n, u));
+  const Point3 to_center = to_circumcenter(u, v);
   constexpr double room = 1e-3;  // much more than the rounding
   const double r = (1 + room) * length(to_center);
   const Point3 center = t[0] + to_center;

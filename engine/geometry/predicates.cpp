@@ -1,4 +1,4 @@
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 #include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
-namespace ccdt::numbers {
+namespace ccdt {
 namespace {
 
 // Fixed-size integers without allocation. The widest insphere needs 5 * 53 + 7 bits.
@@ -318,4 +318,4 @@ bool collinear(const Point3& a, const Point3& b, const Point3& c) {
   return parallel(0, 1) && parallel(1, 2) && parallel(2, 0);
 }
 
-}  // namespace ccdt::numbers
+}  // namespace ccdt

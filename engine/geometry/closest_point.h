@@ -1,13 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "engine/base/point.h"
 
+/// Nearest points, in floating point. Ends and corners may be the same point.
 namespace ccdt {
 
-/// The weights of the corners of a triangle at its point that is nearest to p; they sum to one. In floating point
-/// (Ericson, "Real-Time Collision Detection", 5.1.5).
+/// The point of the line segment from a to b that is nearest to p.
+inline Point3 closest_on_segment(const Point3& p, const Point3& a, const Point3& b) {
+  if (a == b) return a;
+  const Point3 along = b - a;
+  const double t = std::clamp(dot(p - a, along) / squared_length(along), 0.0, 1.0);
+  return a + t * along;
+}
+
+/// The weights of the corners of a triangle at its point that is nearest to p; they sum to one (Ericson, "Real-Time
+/// Collision Detection", 5.1.5).
 inline std::array<double, 3> closest_on_triangle(const Point3& p, const std::array<Point3, 3>& t) {
   const auto weights = [](double v, double w) { return std::array{1 - v - w, v, w}; };
   const Point3 ab = t[1] - t[0], ac = t[2] - t[0], ap = p - t[0], bp = p - t[1], cp = p - t[2];
@@ -28,6 +38,16 @@ inline std::array<double, 3> closest_on_triangle(const Point3& p, const std::arr
   }
   const double sum = va + vb + vc;
   return weights(vb / sum, vc / sum);
+}
+
+/// The point with these weights. A coordinate that all three corners share stays exactly the same.
+inline Point3 weighted_point(const std::array<double, 3>& weights, const std::array<Point3, 3>& t) {
+  return t[0] + (weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0]));
+}
+
+/// The squared distance of p from a triangle, or from a segment or a point as a degenerate one.
+inline double squared_distance(const std::array<Point3, 3>& triangle, const Point3& p) {
+  return squared_length(weighted_point(closest_on_triangle(p, triangle), triangle) - p);
 }
 
 }  // namespace ccdt

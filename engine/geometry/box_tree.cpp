@@ -1,4 +1,6 @@
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
+
+#include <algorithm>
 
 #include "engine/base/morton.h"
 
@@ -17,9 +19,10 @@ std::vector<std::uint32_t> order_of(const RawVector<Box>& boxes) {
 
 }  // namespace
 
-BoxTree::BoxTree(RawVector<Box> boxes) : items_(order_of(boxes)) {
-  boxes_.resize(boxes.size());
+BoxTree::BoxTree(RawVector<Box> boxes, const RawVector<double>& sizes) : items_(order_of(boxes)) {
+  boxes_.resize(boxes.size()), sizes_.resize(sizes.size());
   parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
+  parallel_for(sizes.size(), boxes_at_once, [&](std::size_t i) { sizes_[i] = sizes[items_[i]]; });
   while (std::size_t{leaf_count_} * leaf_size < items_.size()) leaf_count_ *= 2;
   nodes_.resize(std::size_t{leaf_count_} * 2);
   parallel_for(leaf_count_, boxes_at_once, [&](std::size_t i) {
@@ -32,6 +35,17 @@ BoxTree::BoxTree(RawVector<Box> boxes) : items_(order_of(boxes)) {
       const std::size_t node = level + i;
       nodes_[node] = hull(nodes_[2 * node], nodes_[2 * node + 1]);
     });
+  if (sizes_.empty()) return;
+  least_sizes_.resize(nodes_.size());
+  for (std::size_t node = nodes_.size(); node-- > 1;) {
+    double& least = least_sizes_[node] = HUGE_VAL;
+    if (!is_leaf(static_cast<std::uint32_t>(node))) {
+      least = std::min(least_sizes_[2 * node], least_sizes_[2 * node + 1]);
+      continue;
+    }
+    for (auto [place, end] = places_of(static_cast<std::uint32_t>(node)); place < end; ++place)
+      least = std::min(least, sizes_[place]);
+  }
 }
 
 void BoxTree::enlarge(std::uint32_t item, const Box& box) {

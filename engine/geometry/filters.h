@@ -8,7 +8,9 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt::numbers {
+namespace ccdt {
+
+namespace numbers = ::ccdt;  // passing: the name of this folder until now
 
 /// The floating-point stage in front of the exact predicates, inline for the inner loops.
 ///
@@ -308,4 +310,4 @@ inline Sign orient3d_centroid_filter(const Point3& p, const Point3& q, const Poi
   return det > 0 ? Sign::plus : Sign::minus;
 }
 
-}  // namespace ccdt::numbers
+}  // namespace ccdt

@@ -1,14 +1,10 @@
-#include "engine/repair/exact_points.h"
+#include "engine/geometry/exact_points.h"
 
 #include <cstdint>
 #include <utility>
 
-namespace ccdt::repair {
+namespace ccdt {
 namespace {
-
-using plc::IntegerPoint;
-using plc::Wide;
-using plc::WideVector;
 
 ExactPoint make_point(std::array<Long, 3> numerator, Long denominator) {
   if (denominator < 0) {
@@ -41,24 +37,24 @@ double rounded_coordinate(const Long& numerator, const Long& denominator) {
   const Long divisor = 2 * denominator;
   Long quotient = twice / divisor;  // rounds toward zero
   if (twice < 0 && quotient * divisor != twice) quotient -= 1;
-  return numbers::DyadicGrid::quantum * static_cast<double>(static_cast<std::int64_t>(quotient));
+  return DyadicGrid::quantum * static_cast<double>(static_cast<std::int64_t>(quotient));
 }
 
 }  // namespace
 
 ExactPlane plane_of(const std::array<Point3, 3>& triangle) {
-  const WideVector normal = plc::exact_normal(triangle);
-  const IntegerPoint p = plc::to_integers(triangle[0]);
+  const WideVector normal = exact_normal(triangle);
+  const IntegerPoint p = to_integers(triangle[0]);
   return {normal, normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]};
 }
 
 ExactPoint exactly(const Point3& vertex) {
-  const IntegerPoint p = plc::to_integers(vertex);
+  const IntegerPoint p = to_integers(vertex);
   return {{Long(p[0]), Long(p[1]), Long(p[2])}, 1};
 }
 
 ExactPoint meet_plane(const Point3& p, const Point3& q, const ExactPlane& plane) {
-  const IntegerPoint from = plc::to_integers(p), to = plc::to_integers(q);
+  const IntegerPoint from = to_integers(p), to = to_integers(q);
   const auto height = [&](const IntegerPoint& x) {
     return plane.normal[0] * x[0] + plane.normal[1] * x[1] + plane.normal[2] * x[2] - plane.offset;
   };
@@ -66,8 +62,8 @@ ExactPoint meet_plane(const Point3& p, const Point3& q, const ExactPlane& plane)
 }
 
 ExactPoint meet_line(int axis, const Point3& p, const Point3& q, const Point3& a, const Point3& b) {
-  const IntegerPoint from = plc::to_integers(p), to = plc::to_integers(q);
-  const IntegerPoint start = plc::to_integers(a), end = plc::to_integers(b);
+  const IntegerPoint from = to_integers(p), to = to_integers(q);
+  const IntegerPoint start = to_integers(a), end = to_integers(b);
   return point_between(from, to, area_along(axis, start, end, from), area_along(axis, start, end, to));
 }
 
@@ -81,7 +77,7 @@ ExactPoint meet_planes(const ExactPlane& a, const ExactPlane& b, const ExactPlan
   return make_point(std::move(numerator), std::move(determinant));
 }
 
-int side_of(const ExactPlane& plane, const ExactPoint& p) {
+int side_of_plane(const ExactPlane& plane, const ExactPoint& p) {
   VeryLong height = -VeryLong(plane.offset) * VeryLong(p.denominator);
   for (std::size_t i = 0; i < 3; ++i) height += VeryLong(plane.normal[i]) * VeryLong(p.numerator[i]);
   return height.sign();
@@ -89,7 +85,7 @@ int side_of(const ExactPlane& plane, const ExactPoint& p) {
 
 int side_of_line(int axis, const Point3& a, const Point3& b, const ExactPoint& p) {
   const auto u = static_cast<std::size_t>((axis + 1) % 3), v = static_cast<std::size_t>((axis + 2) % 3);
-  const IntegerPoint from = plc::to_integers(a), to = plc::to_integers(b);
+  const IntegerPoint from = to_integers(a), to = to_integers(b);
   const VeryLong denominator(p.denominator);
   const VeryLong x = VeryLong(p.numerator[u]) - denominator * from[u],
                  y = VeryLong(p.numerator[v]) - denominator * from[v];
@@ -112,4 +108,4 @@ Point3 rounded(const ExactPoint& p) {
           rounded_coordinate(p.numerator[2], p.denominator)};
 }
 
-}  // namespace ccdt::repair
+}  // namespace ccdt

@@ -4,9 +4,9 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "engine/base/point.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
 
-namespace ccdt::repair {
+namespace ccdt {
 
 /// Where edges and planes of triangles meet, exactly. All triangles have corners that are multiples of the quantum, and
 /// integers here are measured in quanta: coordinates have 33 bits, normals 68 and offsets of planes 101.
@@ -22,8 +22,8 @@ struct ExactPoint {
 
 /// A plane: the points p with normal * p = offset.
 struct ExactPlane {
-  plc::WideVector normal;
-  plc::Wide offset = 0;
+  WideVector normal;
+  Wide offset = 0;
 };
 
 ExactPlane plane_of(const std::array<Point3, 3>& triangle);
@@ -44,9 +44,9 @@ ExactPoint meet_line(int axis, const Point3& p, const Point3& q, const Point3& a
 ExactPoint meet_planes(const ExactPlane& a, const ExactPlane& b, const ExactPlane& c);
 
 /// The side of the plane that the point is on: that of the normal (1), in it (0) or the other (-1).
-int side_of(const ExactPlane& plane, const ExactPoint& p);
+int side_of_plane(const ExactPlane& plane, const ExactPoint& p);
 
-/// On which side of the line from a to b is the point, seen along the axis? As `plc::orient_along`.
+/// On which side of the line from a to b is the point, seen along the axis? As `orient_along`.
 int side_of_line(int axis, const Point3& a, const Point3& b, const ExactPoint& p);
 
 /// The sign of the difference of p and q along an axis.
@@ -57,4 +57,4 @@ bool are_equal(const ExactPoint& p, const ExactPoint& q);
 /// The nearest multiple of the quantum, in grid units. Equal points become equal, whatever they were found from.
 Point3 rounded(const ExactPoint& p);
 
-}  // namespace ccdt::repair
+}  // namespace ccdt

@@ -5,7 +5,9 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt::numbers {
+namespace ccdt {
+
+namespace numbers = ::ccdt;  // passing: the name of this folder until now
 
 __extension__ typedef __int128 Int128;  // not a name of ISO C++: __extension__ silences pedantic compilers
 
@@ -69,4 +71,4 @@ int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const P
 /// Exact: are the three points on one line (or equal)?
 bool collinear(const Point3& a, const Point3& b, const Point3& c);
 
-}  // namespace ccdt::numbers
+}  // namespace ccdt

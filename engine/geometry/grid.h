@@ -4,7 +4,9 @@
 
 #include "engine/base/point.h"
 
-namespace ccdt::numbers {
+namespace ccdt {
+
+namespace numbers = ::ccdt;  // passing: the name of this folder until now
 
 /// The dyadic grid on which all coordinates of the engine live.
 ///
@@ -31,4 +33,4 @@ DyadicGrid make_grid(std::span<const Point3> world);
 /// Rounds a coordinate in grid units to the nearest grid unit.
 double round_to_unit(double grid);
 
-}  // namespace ccdt::numbers
+}  // namespace ccdt

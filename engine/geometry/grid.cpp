@@ -1,4 +1,4 @@
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "engine/base/box.h"
 
-namespace ccdt::numbers {
+namespace ccdt {
 
 double round_to_unit(double grid) {
   return std::nearbyint(grid);
@@ -44,4 +44,4 @@ DyadicGrid make_grid(std::span<const Point3> world) {
   return grid;
 }
 
-}  // namespace ccdt::numbers
+}  // namespace ccdt

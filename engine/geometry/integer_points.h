@@ -6,21 +6,21 @@
 #include <cstdint>
 
 #include "engine/base/point.h"
-#include "engine/numbers/grid.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/grid.h"
+#include "engine/geometry/predicates.h"
 
-namespace ccdt::plc {
+namespace ccdt {
 
 /// Input vertices are multiples of the quantum, so they are integers of 33 bits when measured in quanta. Normals and
 /// planar orientations then fit 128 bits and need no filter.
-using Wide = numbers::Int128;
+using Wide = Int128;
 
 using IntegerPoint = std::array<std::int64_t, 3>;
 using WideVector = std::array<Wide, 3>;
 
 /// A vertex of the input, or a difference of two, measured in quanta.
 inline IntegerPoint to_integers(const Point3& p) {
-  constexpr double inverse = 1.0 / numbers::DyadicGrid::quantum;
+  constexpr double inverse = 1.0 / DyadicGrid::quantum;
   return {static_cast<std::int64_t>(p.x * inverse), static_cast<std::int64_t>(p.y * inverse),
           static_cast<std::int64_t>(p.z * inverse)};
 }
@@ -46,7 +46,7 @@ inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
   const Point3 u = t[1] - t[0], v = t[2] - t[0];
   // Of less than 2^31 quanta, differences of products have at most 63 bits.
   const auto is_short = [](const Point3& p) {
-    return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < 0x1p31 * numbers::DyadicGrid::quantum;
+    return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < 0x1p31 * DyadicGrid::quantum;
   };
   if (is_short(u) && is_short(v)) {
     const IntegerPoint p = to_integers(u), q = to_integers(v);
@@ -84,7 +84,7 @@ inline int dominant_axis(const std::array<Point3, 3>& t) {
 /// Exact orientation of abc seen against the axis: the sign of that component of (b - a) x (c - a).
 inline int orient_along(int axis, const IntegerPoint& a, const IntegerPoint& b, const IntegerPoint& c) {
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  return numbers::sign_of(Wide(b[u] - a[u]) * (c[v] - a[v]) - Wide(b[v] - a[v]) * (c[u] - a[u]));
+  return sign_of(Wide(b[u] - a[u]) * (c[v] - a[v]) - Wide(b[v] - a[v]) * (c[u] - a[u]));
 }
 
 /// A point in the plane across an axis.
@@ -101,7 +101,7 @@ inline int orient_in_plane(const PlanePoint& a, const PlanePoint& b, const Plane
   const auto product = [](double x, double y) {
     return Wide(static_cast<std::int64_t>(x)) * static_cast<std::int64_t>(y);
   };
-  return numbers::sign_of(product(b[0] - a[0], c[1] - a[1]) - product(b[1] - a[1], c[0] - a[0]));
+  return sign_of(product(b[0] - a[0], c[1] - a[1]) - product(b[1] - a[1], c[0] - a[0]));
 }
 inline int orient_along(int axis, const Point3& a, const Point3& b, const Point3& c) {
   return orient_in_plane(seen_along(axis, a), seen_along(axis, b), seen_along(axis, c));
@@ -114,4 +114,4 @@ inline int axis_across(const std::array<Point3, 3>& t) {
   return 2;
 }
 
-}  // namespace ccdt::plc
+}  // namespace ccdt
