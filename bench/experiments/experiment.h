@@ -32,7 +32,7 @@ using results::add_row, results::all_runs_of, results::as_cell, results::CaseRow
     results::KeptMesh, results::label_column, results::measure_rows, results::mesh_of, results::neighbors,
     results::note_column, results::reason_column, results::ResultRow, results::ResultTable, results::RowColumn,
     results::RowColumns, results::rows_with, results::RowView, results::RowViews, results::run_column,
-    results::seconds_column, results::seconds_of, results::status_column, results::table_of, results::table_of_rows,
+    results::seconds_column, results::stage_seconds, results::status_column, results::table_of, results::table_of_rows,
     results::time_column, results::whole_seconds;
 
 /// The options of every experiment of `ccdt reproduce`.

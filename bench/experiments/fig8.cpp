@@ -101,8 +101,8 @@ std::vector<Quantity> quantities_of(const Fig8Row& row) {
   if (row.measured.asked.mesher != "ccdt" || row.strategy.starts_with("Delaunay refinement"))
     return {time_of("mesh", row.seconds)};
   const char* const per = "front tetrahedra";
-  std::vector<Quantity> all = {time_of("cdt", row.seconds), time_of("delaunay", seconds_of(Stage::delaunay)),
-                               time_of("front", seconds_of(Stage::front), per, &MeshCounts::front_tetrahedra)};
+  std::vector<Quantity> all = {time_of("cdt", row.seconds), time_of("delaunay", stage_seconds(Stage::delaunay)),
+                               time_of("front", stage_seconds(Stage::front), per, &MeshCounts::front_tetrahedra)};
   for (const auto& [name, count] : {std::pair("Delaunay: vertices examined", &Work::vertices_examined),
                                     {"Delaunay: grid cells", &Work::grid_cells},
                                     {"Delaunay: cells created", &Work::cells_created}})

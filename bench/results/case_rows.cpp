@@ -21,7 +21,7 @@ double whole_seconds(const StageCosts& costs) {
   return costs.mesh_seconds;
 }
 
-SecondsOf seconds_of(Stage stage) {
+SecondsOf stage_seconds(Stage stage) {
   return [stage](const StageCosts& costs) { return costs[stage].seconds; };
 }
 

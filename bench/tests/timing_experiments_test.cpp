@@ -205,7 +205,7 @@ std::vector<experiments::LocatorsRow> locators(experiments::SurfaceKind kind, co
   for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
     std::vector<StageCosts> seconds;
     for (const double s : twice(octree)) seconds.push_back(stages(1, locator == LocatorKind::octree ? s : 1));
-    rows.push_back({{measured_case("ccdt", seconds, counts_with(1000)), results::seconds_of(Stage::front)},
+    rows.push_back({{measured_case("ccdt", seconds, counts_with(1000)), results::stage_seconds(Stage::front)},
                     "part",
                     kind,
                     false,
