@@ -5,9 +5,9 @@ Builds the program, copies of it, and programs that are slower by a known share 
 kinds, which take turns, and writes study.json and study.md. Finished gates are kept: call it again to continue.
 
 Example: all 600 gates
-  bench/gate_study/study.py build/gate-study
+  studies/gate/study.py build/gate-study
 Example: four gates of each kind
-  bench/gate_study/study.py build/gate-study-small --gates 4 4 4 4
+  studies/gate/study.py build/gate-study-small --gates 4 4 4 4
 """
 
 import argparse

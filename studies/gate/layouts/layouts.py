@@ -7,10 +7,10 @@ Parts, each of which continues what is there:
   gates      runs gates of two builds, and gates that rebuild them, and writes gates.json and gates.md
 
 Examples:
-  bench/gate_study/layouts/layouts.py build/layouts measure
-  bench/gate_study/layouts/layouts.py build/layouts measure --program ccdt --build build/release
-  bench/gate_study/layouts/layouts.py build/layouts resample --noise 0.3
-  bench/gate_study/layouts/layouts.py build/layouts gates --gates 0 40 40 0 40 40 -- --benchmark_min_time=0.02
+  studies/gate/layouts/layouts.py build/layouts measure
+  studies/gate/layouts/layouts.py build/layouts measure --program ccdt --build build/release
+  studies/gate/layouts/layouts.py build/layouts resample --noise 0.3
+  studies/gate/layouts/layouts.py build/layouts gates --gates 0 40 40 0 40 40 -- --benchmark_min_time=0.02
 """
 
 import argparse

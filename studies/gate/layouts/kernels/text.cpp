@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/gate_study/layouts/kernels/work.h"
+#include "studies/gate/layouts/kernels/work.h"
 
 namespace kernels {
 namespace {

@@ -6,7 +6,7 @@
 #include <bit>
 #include <vector>
 
-#include "bench/gate_study/layouts/kernels/work.h"
+#include "studies/gate/layouts/kernels/work.h"
 
 namespace kernels {
 namespace {

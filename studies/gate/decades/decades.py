@@ -6,7 +6,7 @@ head does as much work, 5% more, and ten times as much. Writes decades.json and 
 again to continue.
 
 Example: an hour on an idle host
-  bench/gate_study/decades/decades.py build/decades
+  studies/gate/decades/decades.py build/decades
 """
 
 import argparse

@@ -11,7 +11,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 RELINK = [sys.executable, HERE / "relink"]
-SOURCES = Path("bench/gate_study/layouts/kernels")  # in the repository
+SOURCES = Path("studies/gate/layouts/kernels")  # in the repository
 FLAGS = ["-std=c++20", "-O2", "-DNDEBUG", "-ffunction-sections", "-fdata-sections"]
 LINK_WORDS = ["-lbenchmark_main", "-lbenchmark", "-lpthread"]
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "bench/gate_study/layouts/kernels/slowdown.h"
+#include "studies/gate/layouts/kernels/slowdown.h"
 
 namespace kernels {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "bench/gate_study/layouts/kernels/work.h"
+#include "studies/gate/layouts/kernels/work.h"
 
 namespace kernels {
 namespace {
