@@ -2,9 +2,9 @@
 #include <functional>
 #include <utility>
 
-#include "bench/proving_ground/prove.h"
+#include "tests/fuzz/prove.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 namespace {
 
@@ -96,4 +96,4 @@ InputPlc reduce(InputPlc input, const IsInteresting& is_interesting) {
   return input;
 }
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

@@ -1,10 +1,10 @@
-#include "bench/proving_ground/structured_plc.h"
+#include "tests/fuzz/structured_plc.h"
 
 #include <cmath>
 
-#include "bench/proving_ground/scene.h"
+#include "tests/fuzz/scene.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 namespace {
 
@@ -74,4 +74,4 @@ plc::InputPlc structured_plc(std::uint64_t seed) {
   return plc;
 }
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

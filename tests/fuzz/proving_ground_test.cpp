@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <vector>
 
-#include "bench/proving_ground/prove.h"
-#include "bench/proving_ground/scene.h"
-#include "bench/proving_ground/structured_plc.h"
 #include "engine/tests/sanitized.h"
 #include "engine/tests/thin_plates.h"
+#include "tests/fuzz/prove.h"
+#include "tests/fuzz/scene.h"
+#include "tests/fuzz/structured_plc.h"
 
 namespace ccdt {
 namespace {
 
-using namespace proving_ground;
+using namespace fuzz;
 using Outcome = Proof::Outcome;
 
 InputPlc box() {

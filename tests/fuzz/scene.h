@@ -8,7 +8,7 @@
 #include "bench/small_plcs/small_plc.h"
 #include "engine/plc/input.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 using small_plcs::Random;
 
@@ -86,4 +86,4 @@ void star_of_segments(Scene& scene);
 void loose_vertices(Scene& scene);
 void chain_of_segments(Scene& scene);
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

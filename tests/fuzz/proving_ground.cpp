@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
-#include "bench/proving_ground/prove.h"
-#include "bench/proving_ground/structured_plc.h"
 #include "engine/io/plc_files.h"
+#include "tests/fuzz/prove.h"
+#include "tests/fuzz/structured_plc.h"
 
 // Tests the engine on random structured PLCs: `proving_ground FIRST COUNT [FOLDER [SECONDS]]`. It prints the seeds
 // that fail. With a folder, it writes their PLCs there, and reduced ones of those whose mesh is wrong.
@@ -14,7 +14,7 @@
 namespace {
 
 using namespace ccdt;
-using namespace ccdt::proving_ground;
+using namespace ccdt::fuzz;
 using Outcome = Proof::Outcome;
 
 ProofOptions options_of(std::uint64_t seed, double seconds) {

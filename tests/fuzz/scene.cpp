@@ -1,4 +1,4 @@
-#include "bench/proving_ground/scene.h"
+#include "tests/fuzz/scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 namespace {
 
@@ -117,4 +117,4 @@ void Scene::segment(const Point3& a, const Point3& b) {
   note_edge(i, j);
 }
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

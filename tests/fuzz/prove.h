@@ -7,7 +7,7 @@
 
 #include "engine/mesher.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 struct ProofOptions {
   double seconds = 20;  ///< of CPU time for one mesh; one that takes longer counts as endless
@@ -41,4 +41,4 @@ Proof prove(const InputPlc& input, const ProofOptions& options = {});
 /// \pre `is_interesting(input)`
 InputPlc reduce(InputPlc input, const std::function<bool(const InputPlc&)>& is_interesting);
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

@@ -4,7 +4,7 @@
 
 #include "engine/plc/input.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 /// A random piecewise linear complex with structure: a body of grid cells, plates, combs or screws, which may contain
 /// facets, fans, bundles and stars of segments, slits and vertices. It has few different coordinates. A seed gives the
@@ -15,4 +15,4 @@ namespace ccdt::proving_ground {
 /// nearly touch, and the meaning of the input would be unclear.
 plc::InputPlc structured_plc(std::uint64_t seed);
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

@@ -1,4 +1,4 @@
-#include "bench/proving_ground/prove.h"
+#include "tests/fuzz/prove.h"
 
 #include <algorithm>
 #include <ctime>
@@ -9,7 +9,7 @@
 #include "engine/base/errors.h"
 #include "engine/plc/bent_facets.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 namespace {
 
@@ -179,4 +179,4 @@ Proof prove(const InputPlc& input, const ProofOptions& options) {
   return Prover(triangulated ? *triangulated : input, options).prove();
 }
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

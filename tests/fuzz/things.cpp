@@ -2,9 +2,9 @@
 #include <cmath>
 #include <map>
 
-#include "bench/proving_ground/scene.h"
+#include "tests/fuzz/scene.h"
 
-namespace ccdt::proving_ground {
+namespace ccdt::fuzz {
 
 namespace {
 
@@ -283,4 +283,4 @@ void chain_of_segments(Scene& scene) {
   }
 }
 
-}  // namespace ccdt::proving_ground
+}  // namespace ccdt::fuzz

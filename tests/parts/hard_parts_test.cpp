@@ -3,14 +3,14 @@
 #include <cctype>
 #include <utility>
 
-#include "bench/proving_ground/prove.h"
-#include "bench/proving_ground/structured_plc.h"
 #include "bench/verify/verify.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
 #include "engine/plc/bent_facets.h"
 #include "engine/tests/plc_test_solids.h"
 #include "engine/tests/real_parts.h"
+#include "tests/fuzz/prove.h"
+#include "tests/fuzz/structured_plc.h"
 
 // Surfaces that once made the engine fail, meshed with all strategies and verified: `ctest -L hard`.
 
@@ -84,8 +84,8 @@ TEST(TurnedPart, StaysRightWithoutItsSteinerVertices) {
 }
 
 TEST(ProvingGround, ABundleOfManyPiecesIsRight) {
-  const proving_ground::Proof proof = proving_ground::prove(proving_ground::structured_plc(4543), {.seconds = 600});
-  EXPECT_EQ(proof.outcome, proving_ground::Proof::Outcome::right) << proof.what;
+  const fuzz::Proof proof = fuzz::prove(fuzz::structured_plc(4543), {.seconds = 600});
+  EXPECT_EQ(proof.outcome, fuzz::Proof::Outcome::right) << proof.what;
 }
 
 }  // namespace
