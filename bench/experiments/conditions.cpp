@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bench/conforming/smallest_spheres.h"
+#include "bench/experiments/conforming/smallest_spheres.h"
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/delaunay/delaunay.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bench/conforming/conforming_delaunay.h"
+#include "bench/experiments/conforming/conforming_delaunay.h"
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/base/errors.h"

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
-#include "bench/small_plcs/small_plc.h"
-#include "bench/small_plcs/trial.h"
+#include "bench/experiments/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/trial.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt::experiments {

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/bravais/bravais_lattices.h"
+#include "bench/experiments/bravais/bravais_lattices.h"
 
 namespace ccdt::experiments {
 namespace {

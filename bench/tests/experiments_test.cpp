@@ -5,9 +5,9 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/registry.h"
+#include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
-#include "bench/small_plcs/trial.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {

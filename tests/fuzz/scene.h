@@ -5,7 +5,7 @@
 #include <map>
 #include <vector>
 
-#include "bench/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 #include "engine/plc/input.h"
 
 namespace ccdt::fuzz {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/bravais/unit_cell.h"
+#include "bench/experiments/bravais/unit_cell.h"
 
 namespace ccdt::bravais {
 

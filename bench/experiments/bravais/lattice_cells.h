@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bench/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 
 /// Bravais lattices, and the Delaunay tetrahedralizations of their points, exactly.
 ///

@@ -1,4 +1,4 @@
-#include "bench/bravais/bravais_lattices.h"
+#include "bench/experiments/bravais/bravais_lattices.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "bench/bravais/triangulations.h"
+#include "bench/experiments/bravais/triangulations.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "bench/bravais/lattice_cells.h"
+#include "bench/experiments/bravais/lattice_cells.h"
 
 namespace ccdt::bravais {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "bench/bravais/lattice_cells.h"
-#include "bench/bravais/triangulations.h"
+#include "bench/experiments/bravais/lattice_cells.h"
+#include "bench/experiments/bravais/triangulations.h"
 
 namespace ccdt::bravais {
 

@@ -1,4 +1,4 @@
-#include "bench/small_plcs/trial.h"
+#include "bench/experiments/small_plcs/trial.h"
 
 #include <algorithm>
 #include <cstdlib>

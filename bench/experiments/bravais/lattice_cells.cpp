@@ -1,4 +1,4 @@
-#include "bench/bravais/lattice_cells.h"
+#include "bench/experiments/bravais/lattice_cells.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "bench/conforming/conforming_delaunay.h"
+#include "bench/experiments/conforming/conforming_delaunay.h"
 
 #include <algorithm>
 #include <array>

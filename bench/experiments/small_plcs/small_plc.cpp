@@ -1,4 +1,4 @@
-#include "bench/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 
 #include <algorithm>
 #include <iterator>

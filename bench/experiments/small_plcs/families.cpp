@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/small_plcs/trial.h"
+#include "bench/experiments/small_plcs/trial.h"
 
 namespace ccdt::small_plcs {
 namespace {

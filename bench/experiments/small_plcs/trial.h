@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 
 namespace ccdt::small_plcs {
 

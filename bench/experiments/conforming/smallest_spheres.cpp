@@ -1,4 +1,4 @@
-#include "bench/conforming/smallest_spheres.h"
+#include "bench/experiments/conforming/smallest_spheres.h"
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>

@@ -1,4 +1,4 @@
-#include "bench/bravais/unit_cell.h"
+#include "bench/experiments/bravais/unit_cell.h"
 
 #include <algorithm>
 #include <cmath>
