@@ -6,8 +6,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "bench/json.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json.h"
+#include "bench/run/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 #include "reports/result_text.h"

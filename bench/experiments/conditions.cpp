@@ -125,13 +125,13 @@ std::vector<Point3> interior_points(const mesh::TetMesh& mesh, std::size_t count
   return points;
 }
 
-void examine(const cases::Runner& runner, ConditionsRow& row) {
+void examine(const bench::Runner& runner, ConditionsRow& row) {
   if (!row.ok()) return;
   const plc::Plc plc = plc::build_plc(io::read_plc(row.measured.asked.input));
   std::vector<Point3> interior;
   if (row.lattice != Lattice::none)
     interior =
-        interior_points(cases::mesh_of(runner, row.measured), row.measured.first.counts.interior_vertices, plc.grid);
+        interior_points(results::mesh_of(runner, row.measured), row.measured.first.counts.interior_vertices, plc.grid);
   count_violations(plc, interior, row);
 }
 
@@ -164,7 +164,7 @@ ExperimentResult conditions_result(std::span<const ConditionsRow> rows) {
   return result;
 }
 
-ExperimentResult measure_conditions(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_conditions(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<SurfaceFile> files = write_solids(options, "conditions", coarsenings);
   append(files, parts_that_come_along(options));
   append(files, input_files(options));

@@ -151,7 +151,7 @@ ExperimentResult conforming_result(std::span<const ConformingRow> rows) {
   return result;
 }
 
-ExperimentResult measure_conforming(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_conforming(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<SurfaceFile> files = solids_and_flattened(options);
   append(files, parts_that_come_along(options));
   append(files, input_files(options));

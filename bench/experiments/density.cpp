@@ -169,7 +169,7 @@ ExperimentResult density_result(std::span<const DensityRow> rows) {
   return result;
 }
 
-ExperimentResult measure_density(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_density(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<DensityRow> rows;
   for (const DensitySeries& series : all_series)
     if (is_asked_for(options, series.solid)) plan_series(options, series, rows);

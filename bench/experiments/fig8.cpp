@@ -31,7 +31,7 @@ constexpr double small_scale = 50000, most_at_small_scales = 1.5, coarsest_at_sm
 /// A way to mesh, and its largest mesh of a model, in the wanted number of tetrahedra.
 struct Strategy {
   std::string label, mesher, words;
-  cases::SecondsOf seconds = whole_seconds;
+  bench::SecondsOf seconds = whole_seconds;
   double most = 0;
   double SizeRange::*most_of_model = &SizeRange::most;
 };
@@ -74,17 +74,17 @@ using Series = std::span<const Fig8Row>;
 struct Quantity {
   std::string name;
   const char *kind, *over;  ///< "time" or "work"; "vertices" or "front tetrahedra"
-  std::function<double(const cases::MeasuredCase&)> of;
+  std::function<double(const bench::MeasuredCase&)> of;
   std::uint64_t MeshCounts::*size;
 };
 
 const std::string of_time = "time", of_work = "work";
 
-Quantity time_of(std::string name, cases::SecondsOf seconds, const char* over = "vertices",
+Quantity time_of(std::string name, bench::SecondsOf seconds, const char* over = "vertices",
                  std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
   return {
       std::move(name), of_time.c_str(), over,
-      [seconds = std::move(seconds)](const cases::MeasuredCase& m) { return bench::median(samples_of(m, seconds)); },
+      [seconds = std::move(seconds)](const bench::MeasuredCase& m) { return bench::median(samples_of(m, seconds)); },
       size};
 }
 
@@ -92,7 +92,7 @@ Quantity work_of(std::string name, Stage stage, std::uint64_t Work::*count, cons
                  std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
   return {
       std::move(name), of_work.c_str(), over,
-      [stage, count](const cases::MeasuredCase& m) { return static_cast<double>(m.first.costs[stage].work.*count); },
+      [stage, count](const bench::MeasuredCase& m) { return static_cast<double>(m.first.costs[stage].work.*count); },
       size};
 }
 
@@ -248,11 +248,11 @@ std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperMod
   return sizes;
 }
 
-cases::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
+bench::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
                     const Strategy& strategy) {
   constexpr double most_verified = 2;
   const bool is_ours = strategy.mesher == "ccdt";
-  cases::Case one = single_case(
+  bench::Case one = single_case(
       options, joined({model.name, strategy.label, "edge length " + rounded(size.edge_length)}), strategy.mesher,
       size.surface, words_of(strategy.words + (is_ours ? " --improve none --steiner keep --grading 0" : "")));
   one.group = "fig8";
@@ -310,7 +310,7 @@ ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
   return result;
 }
 
-ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_fig8(const ExperimentOptions& options, bench::Runner& runner) {
   constexpr double precision = 0;  // six runs are enough: the interval of a fit comes from the scatter of the sizes
   std::vector<Fig8Row> rows;
   for (const PaperModel& model : paper_models)

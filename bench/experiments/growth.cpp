@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::experiments {
 namespace {
 
-using results::rounded;
+using bench::rounded;
 
 /// The variance that remains if log y is a given function of n plus a free constant.
 template <class LogOfLaw>

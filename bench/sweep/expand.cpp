@@ -11,7 +11,7 @@
 #include "baselines/json_schema.h"
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
@@ -195,7 +195,7 @@ std::string name_of_case(const SweepCase& one, const std::vector<OptionAxis>& ax
     const auto option = std::ranges::find(one.options, axis.name, &Values::value_type::first);
     if (axis.values.size() > 1 && option != one.options.end()) parts.push_back(axis.name + " " + option->second);
   }
-  return results::joined(parts);
+  return bench::joined(parts);
 }
 
 SweepCase case_of(const SweepSpec& spec, const ExpandedInput& input, const std::string& mesher, Values options) {
@@ -268,8 +268,8 @@ void write_models(std::span<const SweepCase> cases, bool anew, const Progress& p
   }
 }
 
-std::vector<cases::Case> asked_of(std::span<const SweepCase> cases) {
-  std::vector<cases::Case> all;
+std::vector<bench::Case> asked_of(std::span<const SweepCase> cases) {
+  std::vector<bench::Case> all;
   for (const SweepCase& one : cases) all.push_back(one.asked);
   return all;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/cases/case.h"
+#include "bench/run/case.h"
 #include "bench/sweep/spec.h"
 #include "engine/base/progress.h"
 
@@ -25,7 +25,7 @@ struct CaseInput {
 
 /// A case of a sweep.
 struct SweepCase {
-  cases::Case asked;
+  bench::Case asked;
   CaseInput input;
   std::vector<std::pair<std::string, std::string>> options;  ///< options that make a difference to its mesher, by name
   std::string id = {};                                       ///< known once its input exists
@@ -51,7 +51,7 @@ std::vector<std::string> words_for(const std::string& mesher,
 /// \throw baselines::Stopped
 void write_models(std::span<const SweepCase> cases, bool anew, const Progress& progress);
 
-/// The cases for `cases::Runner`.
-std::vector<cases::Case> asked_of(std::span<const SweepCase> cases);
+/// The cases for `bench::Runner`.
+std::vector<bench::Case> asked_of(std::span<const SweepCase> cases);
 
 }  // namespace ccdt::sweep

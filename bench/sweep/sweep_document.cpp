@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "baselines/mesher.h"
-#include "bench/file_names.h"
+#include "bench/run/file_names.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::sweep {
@@ -22,7 +22,7 @@ std::string name_in(const std::filesystem::path& folder, const std::filesystem::
   return name.empty() || *name.begin() == ".." ? file.string() : name.string();
 }
 
-Json json_of(const cases::Repetitions& repetitions) {
+Json json_of(const bench::Repetitions& repetitions) {
   return {{"warm_up", repetitions.warm_up},
           {"at_least", repetitions.at_least},
           {"at_most", repetitions.at_most},
@@ -81,10 +81,10 @@ std::filesystem::path sweep_file(const std::filesystem::path& folder) {
 }
 
 void write_sweep(const std::filesystem::path& folder, const SweepSpec& spec,
-                 const std::vector<cases::Identity>& identities, std::span<const SweepCase> cases) {
+                 const std::vector<bench::Identity>& identities, std::span<const SweepCase> cases) {
   const auto whole = std::filesystem::absolute(folder).lexically_normal();
   Json json = to_json(spec);
-  json.update(cases::identities_json(identities));
+  json.update(bench::identities_json(identities));
   json["cases"] = Json::array();
   for (const SweepCase& one : cases) json["cases"].push_back(json_of(one, whole));
   bench::write_json(json, sweep_file(folder));
@@ -99,9 +99,9 @@ SweepDocument read_sweep(const std::filesystem::path& folder) {
     json.at("verify").get_to(common.verify);
     json.at("keep_meshes").get_to(common.keep_meshes);
     json.at("seed").get_to(document.seed);
-    document.identities = {json.at("identity").get<cases::Identity>()};
+    document.identities = {json.at("identity").get<bench::Identity>()};
     for (const Json& other : json.value("mixed_with", Json::array()))
-      document.identities.push_back(other.get<cases::Identity>());
+      document.identities.push_back(other.get<bench::Identity>());
     for (const Json& one : json.at("cases")) document.cases.push_back(case_from(one, common, whole));
   });
   return document;

@@ -6,9 +6,9 @@
 #include <set>
 #include <span>
 
-#include "bench/in_parallel.h"
-#include "bench/median_interval.h"
-#include "bench/results/numbers.h"
+#include "bench/run/in_parallel.h"
+#include "bench/run/median_interval.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::sweep_results {
 namespace {
@@ -35,12 +35,12 @@ void add_times(CaseSummary& summary) {
     summary.peak_bytes = std::max(summary.peak_bytes, number_of(*run, "peak_rss_bytes").value_or(0));
   }
   if (samples.empty()) return;
-  summary.seconds = bench::median_estimate(samples, cases::looks_of(summary.of->wanted));
+  summary.seconds = bench::median_estimate(samples, bench::looks_of(summary.of->wanted));
   if (!summary.seconds->has_interval()) return;
   const double wanted = summary.of->wanted.until;
   const double most = wanted > 0 ? std::min(wanted, widest_spread) : widest_spread;
   const double spread = bench::relative_spread(*summary.seconds);
-  if (spread > most) summary.spread = "spread too wide: " + results::rounded(100 * spread, 2) + "%";
+  if (spread > most) summary.spread = "spread too wide: " + bench::rounded(100 * spread, 2) + "%";
 }
 
 void summarize(CaseSummary& summary) {

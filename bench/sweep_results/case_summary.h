@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 #include "bench/sweep_results/sweep_runs.h"
 
 namespace ccdt::sweep_results {

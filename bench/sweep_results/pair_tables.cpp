@@ -5,8 +5,8 @@
 #include <set>
 #include <unordered_map>
 
-#include "bench/median_interval.h"
-#include "bench/results/numbers.h"
+#include "bench/run/median_interval.h"
+#include "bench/run/numbers.h"
 #include "bench/sweep_results/sweep_tables.h"
 
 namespace ccdt::sweep_results {
@@ -55,7 +55,7 @@ constexpr std::size_t most_pairs = 3000;
 void thin_out(ResultTable& pairs) {
   if (pairs.rows.size() <= most_pairs) return;
   const double share = static_cast<double>(most_pairs) / static_cast<double>(pairs.rows.size());
-  pairs.title += ", a sample of " + results::with_separators(pairs.rows.size());
+  pairs.title += ", a sample of " + bench::with_separators(pairs.rows.size());
   std::mt19937_64 random(1);
   std::erase_if(pairs.rows, [&](const ResultRow&) { return static_cast<double>(random() >> 11) * 0x1p-53 > share; });
 }

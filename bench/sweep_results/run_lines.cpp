@@ -2,7 +2,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "bench/sweep_results/sweep_result.h"
 #include "engine/base/digits.h"
 
@@ -54,7 +54,7 @@ std::string csv_text(const Cell& cell) {
 }  // namespace
 
 std::string runs_as_csv(const Sweep& sweep) {
-  std::string text = results::joined(names_of(sweep), ",") + "\r\n";
+  std::string text = bench::joined(names_of(sweep), ",") + "\r\n";
   for (const SweepCase& of : sweep.cases)
     for (const NumberedRun& run : of.runs) {
       const std::vector<Cell> values = values_of(of, run);

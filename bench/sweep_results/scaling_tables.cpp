@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 #include "bench/sweep_results/sweep_tables.h"
 
 namespace ccdt::sweep_results {

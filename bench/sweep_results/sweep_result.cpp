@@ -5,16 +5,16 @@
 #include <set>
 #include <utility>
 
-#include "bench/results/numbers.h"
-#include "bench/run_record.h"
+#include "bench/run/numbers.h"
+#include "bench/run/run_record.h"
 #include "bench/sweep_results/sweep_tables.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::sweep_results {
 namespace {
 
+using bench::with_separators;
 using results::ExperimentResult;
-using results::with_separators;
 
 std::string counted(std::size_t count, const std::string& noun) {
   return with_separators(count) + " " + noun + (count == 1 ? "" : "s");
@@ -54,7 +54,7 @@ void add_case_findings(std::span<const CaseSummary> cases, ExperimentResult& res
   const std::size_t wide = count_of(cases, [](const auto& s) { return !s.spread.empty(); });
   if (wide > 0)
     result.findings.push_back("The times of " + counted(wide, "case") + " spread more than requested, or than " +
-                              results::rounded(100 * widest_spread, 2) + "%; their rows say so.");
+                              bench::rounded(100 * widest_spread, 2) + "%; their rows say so.");
   if (run < cases.size())
     result.problems.push_back(counted(cases.size() - run, "case") +
                               " of the sweep have no run yet; call `ccdt sweep` again to continue");
@@ -73,12 +73,12 @@ void add_fit_findings(const ResultTable& fits, std::vector<std::string>& finding
     std::vector<std::string> of;
     for (const results::Column& column : fits.columns)
       if (std::string text = results::text_in(fits, row, column.name); !text.empty()) of.push_back(std::move(text));
-    findings.push_back(results::joined(of) + says + results::with_interval(slope) + ".");
+    findings.push_back(bench::joined(of) + says + bench::with_interval(slope) + ".");
   }
   if (fits.rows.size() <= most_single_fits) return;
   for (const auto& [mesher, values] : exponents) {
     const auto [low, high] = std::ranges::minmax(values);
-    findings.push_back(mesher + says + results::rounded(low) + " to " + results::rounded(high) + ", in " +
+    findings.push_back(mesher + says + bench::rounded(low) + " to " + bench::rounded(high) + ", in " +
                        counted(values.size(), "fit") + ".");
   }
 }
@@ -87,7 +87,7 @@ void add_pair_findings(const ResultTable& pairs, std::vector<std::string>& findi
   for (const auto& row : pairs.rows) {
     const auto* ratio = std::get_if<bench::Estimate>(&results::cell(pairs, row, "ratio"));
     if (ratio == nullptr) continue;
-    findings.push_back(results::text_in(pairs, row, "first") + " takes " + results::with_interval(*ratio) +
+    findings.push_back(results::text_in(pairs, row, "first") + " takes " + bench::with_interval(*ratio) +
                        " times as long as " + results::text_in(pairs, row, "second") + " (median of " +
                        with_separators(static_cast<std::uint64_t>(results::number_in(pairs, row, "both"))) +
                        " pairs).");
@@ -123,7 +123,7 @@ void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentRes
   if (machines.size() > 1) {
     const std::vector<std::string> names(machines.begin(), machines.end());
     result.problems.push_back("runs were made on " + counted(machines.size(), "processor") + " (" +
-                              results::joined(names) + "), so their times cannot be compared");
+                              bench::joined(names) + "), so their times cannot be compared");
   }
 }
 

@@ -6,9 +6,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "bench/cases/identity.h"
-#include "bench/in_parallel.h"
-#include "bench/json.h"
+#include "bench/run/identity.h"
+#include "bench/run/in_parallel.h"
+#include "bench/run/json.h"
 #include "bench/sweep/sweep_document.h"
 
 namespace ccdt::sweep_results {
@@ -24,7 +24,7 @@ std::string option_text(const bench::Json& value) {
   return value.dump();
 }
 
-void read_wanted(const bench::Json& json, cases::Repetitions& wanted) {
+void read_wanted(const bench::Json& json, bench::Repetitions& wanted) {
   wanted.warm_up = json.value("warm_up", wanted.warm_up);
   wanted.at_least = json.value("at_least", wanted.at_least);
   wanted.at_most = json.value("at_most", wanted.at_most);
@@ -80,7 +80,7 @@ Owners owners_of(const std::filesystem::path& folder, const Sweep& sweep) {
   for (std::size_t i = 0; i < sweep.cases.size(); ++i) owners.emplace(sweep.cases[i].id, Owner{i, 0});
   if (!sweep.is_mixed) return owners;
   const sweep::SweepDocument document = sweep::read_sweep(folder);
-  cases::FileHashes hashes;
+  bench::FileHashes hashes;
   for (std::size_t age = 1; age < document.identities.size(); ++age)
     for (std::size_t i = 0; i < document.cases.size(); ++i)
       owners.emplace(id_of(document.cases[i].asked, document.identities[age], hashes), Owner{i, age});

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/case.h"
+#include "bench/run/case.h"
 #include "bench/sweep_results/run_values.h"
 
 namespace ccdt::sweep_results {
@@ -25,7 +25,7 @@ struct SweepCase {
   std::optional<double> edge_length;  ///< of a model
   std::string mesher;
   std::vector<std::string> options;  ///< one for each of `Sweep::options`; empty: not used by this mesher
-  cases::Repetitions wanted;
+  bench::Repetitions wanted;
   std::vector<NumberedRun> runs = {};  ///< by number; none: the case has not run yet
 };
 

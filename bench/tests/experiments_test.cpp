@@ -98,7 +98,7 @@ experiments::InteriorRow interior_row(const char* rule, Lattice lattice, std::ui
   bench::RunRecord run;
   run.counts.interior_vertices = placed;
   run.counts.dropped_interior_vertices = dropped;
-  cases::add_run(row.measured, run);
+  bench::add_run(row.measured, run);
   return row;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "baselines/external_program.h"
-#include "bench/cases/identity.h"
+#include "bench/run/identity.h"
 #include "bench/sweep/expand.h"
 #include "bench/sweep/spec.h"
 #include "bench/sweep/sweep_document.h"
@@ -255,9 +255,9 @@ TEST_F(SweepSpecs, MakeOneCaseOfOptionsThatAMesherDoesNotHave) {
 }
 
 TEST_F(SweepSpecs, IdentifyCasesWhateverTheOrderOfTheOptions) {
-  cases::FileHashes hashes;
+  bench::FileHashes hashes;
   const auto id = [&](const Json& options) {
-    return cases::id_of(expand(spec_with({{"options", options}})).at(0).asked, {}, hashes);
+    return bench::id_of(expand(spec_with({{"options", options}})).at(0).asked, {}, hashes);
   };
   EXPECT_EQ(id({{"lattice", "bcc"}, {"locator", "grid"}}), id({{"locator", "grid"}, {"lattice", "bcc"}}));
   EXPECT_EQ(id({{"lattice", "fcc"}}), id(Json::object()));
@@ -276,7 +276,7 @@ TEST_F(SweepSpecs, AreKeptInTheFolderWithTheirCases) {
                                {"keep_meshes", true}});
   auto cases = expand(spec);
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].id = std::to_string(i);
-  const std::vector<cases::Identity> identities = {{{"ccdt.binary", "b"}}, {{"ccdt.binary", "a"}}};
+  const std::vector<bench::Identity> identities = {{{"ccdt.binary", "b"}}, {{"ccdt.binary", "a"}}};
   std::filesystem::create_directories(folder() / "out");
   sweep::write_sweep(folder() / "out", read(spec), identities, cases);
 
@@ -285,7 +285,7 @@ TEST_F(SweepSpecs, AreKeptInTheFolderWithTheirCases) {
   EXPECT_EQ(document.identities, identities);
   ASSERT_EQ(document.cases.size(), cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const cases::Case &then = cases[i].asked, &now = document.cases[i].asked;
+    const bench::Case &then = cases[i].asked, &now = document.cases[i].asked;
     EXPECT_EQ(document.cases[i].id, cases[i].id);
     EXPECT_EQ(document.cases[i].options, cases[i].options);
     EXPECT_EQ(now.name, then.name);

@@ -7,8 +7,8 @@
 #include <random>
 #include <utility>
 
-#include "bench/json.h"
-#include "bench/run_record.h"
+#include "bench/run/json.h"
+#include "bench/run/run_record.h"
 #include "engine/io/files.h"
 
 namespace ccdt {

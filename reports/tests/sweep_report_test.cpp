@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "bench/json.h"
+#include "bench/run/json.h"
 #include "bench/sweep_results/sweep_result.h"
 #include "engine/io/files.h"
 #include "reports/report.h"

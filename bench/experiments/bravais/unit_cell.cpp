@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "bench/quality.h"
+#include "bench/run/quality.h"
 
 namespace ccdt::bravais {
 namespace {

@@ -43,7 +43,7 @@ struct UnitCellQuality {
   double best_r = 0, worst_r = 0;
   double mean_r = 0, mean_r_by_volume = 0;  ///< each tetrahedron counts as one, or by its volume
   double smallest_dihedral = 0, largest_dihedral = 0;
-  double worst_aspect = 0, worst_radius_edge = 0;  ///< see bench/quality.h
+  double worst_aspect = 0, worst_radius_edge = 0;  ///< see bench/run/quality.h
 };
 
 UnitCellQuality quality_of(const UnitCell& unit_cell);

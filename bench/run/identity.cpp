@@ -1,4 +1,4 @@
-#include "bench/cases/identity.h"
+#include "bench/run/identity.h"
 
 #include <unistd.h>
 
@@ -10,13 +10,13 @@
 #include "baselines/mesher_description.h"
 #include "baselines/mesher_options.h"
 #include "baselines/parse_json.h"
-#include "bench/environment.h"
-#include "bench/results/numbers.h"
+#include "bench/run/environment.h"
+#include "bench/run/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/file_sets.h"
 #include "engine/io/files.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
 constexpr std::size_t id_digits = 16;
@@ -24,7 +24,7 @@ constexpr const char* identity_member = "identity";
 constexpr const char* mixed_member = "mixed_with";
 
 void add_machine(Identity& identity) {
-  const bench::Environment here = bench::capture_environment();
+  const Environment here = capture_environment();
   identity["machine.cpu"] = here.cpu;
   // All cores of the machine: a batch system may give a process only some of them.
   identity["machine.cores"] = std::to_string(sysconf(_SC_NPROCESSORS_CONF));
@@ -51,7 +51,7 @@ Identity fields_missing_in(const Identity& other, const Identity& identity) {
   return missing;
 }
 
-bench::Json read_identities(const std::filesystem::path& file) {
+Json read_identities(const std::filesystem::path& file) {
   const io::FileBytes bytes = io::read_whole_file(file);
   auto json = baselines::try_parse_json(bytes.bytes);
   if (!json || !json->is_object() || !json->contains(identity_member))
@@ -61,19 +61,19 @@ bench::Json read_identities(const std::filesystem::path& file) {
 }
 
 /// The contents of files, each with the ending that says its format. Where the files are does not matter.
-bench::Json contents_of(const std::vector<std::filesystem::path>& files, FileHashes& hashes) {
-  bench::Json all = bench::Json::array();
+Json contents_of(const std::vector<std::filesystem::path>& files, FileHashes& hashes) {
+  Json all = Json::array();
   for (const auto& file : files) all.push_back({io::lower_ending(file), hashes.of(file)});
   return all;
 }
 
 /// The words of the options, with the contents of files in place of their names.
-bench::Json options_json(const std::vector<std::string>& words, FileHashes& hashes) {
-  bench::Json all = bench::Json::array();
+Json options_json(const std::vector<std::string>& words, FileHashes& hashes) {
+  Json all = Json::array();
   std::string_view before;
   for (const std::string& word : words) {
     const bool is_file = before.starts_with("--") && baselines::names_a_file(before.substr(2));
-    all.push_back(is_file ? contents_of(io::files_of_sizes(word), hashes) : bench::Json(word));
+    all.push_back(is_file ? contents_of(io::files_of_sizes(word), hashes) : Json(word));
     before = word;
   }
   return all;
@@ -117,7 +117,7 @@ std::vector<std::string> differences(const Identity& then, const Identity& now) 
 std::vector<Identity> accepted_identities(const std::filesystem::path& file, const Identity& now,
                                           OtherIdentity policy) {
   if (!std::filesystem::exists(file)) return {now};
-  const bench::Json json = read_identities(file);
+  const Json json = read_identities(file);
   const auto then = json.at(identity_member).get<Identity>();
   const auto mixed = json.value(mixed_member, std::vector<Identity>());
   const std::vector<std::string> changes = differences(then, now);
@@ -128,10 +128,9 @@ std::vector<Identity> accepted_identities(const std::filesystem::path& file, con
     const bool is_known =
         std::ranges::any_of(mixed, [&](const Identity& other) { return differences(other, now).empty(); });
     if (policy == OtherIdentity::refuse && !is_known)
-      throw InputError(
-          "this folder was made with other programs or on another machine: " + results::joined(changes, "; "),
-          io::place_in(file.string()),
-          "choose another folder; or measure again with --refresh; or keep both with --mixed");
+      throw InputError("this folder was made with other programs or on another machine: " + joined(changes, "; "),
+                       io::place_in(file.string()),
+                       "choose another folder; or measure again with --refresh; or keep both with --mixed");
     if (policy == OtherIdentity::refresh) return accepted;
     accepted.push_back(then);
   }
@@ -139,8 +138,8 @@ std::vector<Identity> accepted_identities(const std::filesystem::path& file, con
   return accepted;
 }
 
-bench::Json identities_json(const std::vector<Identity>& accepted) {
-  bench::Json json = {{identity_member, accepted.front()}};
+Json identities_json(const std::vector<Identity>& accepted) {
+  Json json = {{identity_member, accepted.front()}};
   if (accepted.size() > 1) json[mixed_member] = std::vector<Identity>(accepted.begin() + 1, accepted.end());
   return json;
 }
@@ -151,19 +150,19 @@ const std::string& FileHashes::of(const std::filesystem::path& file) {
   const auto size = std::filesystem::file_size(file, ignored);
   const auto [entry, is_new] = known_.try_emplace(file);
   Known& known = entry->second;
-  if (is_new || known.written != written || known.size != size) known = {written, size, bench::sha256_of_file(file)};
+  if (is_new || known.written != written || known.size != size) known = {written, size, sha256_of_file(file)};
   return known.hash;
 }
 
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes) {
   const std::string name = baselines::mesher(asked.mesher).name;
-  bench::Json what = {{"input", contents_of(io::files_of_plc(asked.input), hashes)},
-                      {"mesher", name},
-                      {"identity", part_for(name, identity)},
-                      {"options", options_json(asked.options, hashes)}};
+  Json what = {{"input", contents_of(io::files_of_plc(asked.input), hashes)},
+               {"mesher", name},
+               {"identity", part_for(name, identity)},
+               {"options", options_json(asked.options, hashes)}};
   what["limits"] = {asked.limits.seconds, asked.limits.memory_bytes, asked.limits.disk_bytes};
   what["verify"] = asked.verify;
-  return bench::sha256_of_text(what.dump(-1, ' ', false, bench::Json::error_handler_t::replace)).substr(0, id_digits);
+  return sha256_of_text(what.dump(-1, ' ', false, Json::error_handler_t::replace)).substr(0, id_digits);
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -1,4 +1,4 @@
-#include "bench/median_interval.h"
+#include "bench/run/median_interval.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
@@ -7,7 +7,7 @@
 namespace ccdt::bench {
 namespace {
 
-/// Without `long double`, as in bench/statistics.cpp.
+/// Without `long double`, as in bench/run/statistics.cpp.
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 using FairCoin = boost::math::binomial_distribution<double, InDouble>;
 

@@ -1,10 +1,10 @@
-#include "bench/surface_limit.h"
+#include "bench/run/surface_limit.h"
 
 #include <algorithm>
 #include <array>
 #include <vector>
 
-#include "bench/quality.h"
+#include "bench/run/quality.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "bench/json.h"
+#include "bench/run/json.h"
 #include "engine/base/enum_names.h"
 
 /// Structs in JSON. The members of a struct are listed once, with their names, in `fields<Struct>`; writing, reading

@@ -10,8 +10,8 @@
 
 #include "baselines/mesher.h"
 #include "baselines/process.h"
-#include "bench/environment.h"
-#include "bench/quality.h"
+#include "bench/run/environment.h"
+#include "bench/run/quality.h"
 
 namespace ccdt::bench {
 
@@ -48,7 +48,7 @@ struct RunRecord {
   double read_seconds = 0, write_seconds = 0;
   std::uint64_t peak_rss_bytes = 0;
   Quality quality;
-  std::string mesh_fingerprint;  ///< see bench/fingerprint.h; empty without a mesh
+  std::string mesh_fingerprint;  ///< see bench/run/fingerprint.h; empty without a mesh
   double largest_rounding = 0;
   baselines::RunStatus status = baselines::RunStatus::ok;
   std::optional<baselines::FailureKind> kind;  ///< of a failure; older programs did not write it

@@ -1,9 +1,9 @@
-#include "bench/run_record.h"
+#include "bench/run/run_record.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "bench/json_fields.h"
+#include "bench/run/json_fields.h"
 
 namespace ccdt::bench {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/case.h"
-#include "bench/json.h"
+#include "bench/run/case.h"
+#include "bench/run/json.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 
 /// The fields on which results depend besides their cases: "machine.cpu", "ccdt.binary" (a hash), "tetgen.version". A
 /// mesher that a file describes also has the hashes of that file, "NAME.description", and of the files that it names,
@@ -40,7 +40,7 @@ std::vector<std::string> differences(const Identity& then, const Identity& now);
 std::vector<Identity> accepted_identities(const std::filesystem::path& file, const Identity& now, OtherIdentity policy);
 
 /// The members "identity" and "mixed_with" of a document that keeps identities.
-bench::Json identities_json(const std::vector<Identity>& accepted);
+Json identities_json(const std::vector<Identity>& accepted);
 
 /// The hashes of files that many cases share, each computed once unless the file changes.
 class FileHashes {
@@ -63,4 +63,4 @@ class FileHashes {
 /// hexadecimal digits.
 std::string id_of(const Case& asked, const Identity& identity, FileHashes& hashes);
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -1,4 +1,4 @@
-#include "bench/surface_measures.h"
+#include "bench/run/surface_measures.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 
 namespace ccdt::bench {
 namespace {

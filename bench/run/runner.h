@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/case.h"
-#include "bench/cases/identity.h"
+#include "bench/run/case.h"
+#include "bench/run/identity.h"
 #include "engine/base/progress.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 
 /// Where and how cases are run.
 struct RunnerSettings {
@@ -59,4 +59,4 @@ class Runner {
   std::set<std::string> tried_;  ///< ids of the cases that were run here; they are not retried again
 };
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -1,21 +1,15 @@
-#include "bench/cases/case_rows.h"
+#include "bench/results/case_rows.h"
 
 #include <algorithm>
 #include <functional>
 #include <utility>
 
-#include "bench/median_interval.h"
 #include "bench/results/kept_mesh.h"
+#include "bench/run/median_interval.h"
 #include "engine/io/tet_mesh_files.h"
 
-namespace ccdt::cases {
+namespace ccdt::results {
 
-using results::as_cell;
-using results::Cell;
-using results::figure_column;
-using results::label_column;
-using results::note_column;
-using results::time_column;
 double cdt_seconds(const StageCosts& costs) {
   double sum = 0;
   for (const Stage stage : {Stage::delaunay, Stage::face_check, Stage::front, Stage::label})
@@ -76,7 +70,7 @@ RowColumn<CaseRow> count_column(std::string name, std::uint64_t MeshCounts::*cou
                     [count](const RunRecord& run) { return as_cell(run.counts.*count); });
 }
 
-RowColumn<CaseRow> run_column(results::Column column, const std::function<Cell(const RunRecord&)>& figure) {
+RowColumn<CaseRow> run_column(Column column, const std::function<Cell(const RunRecord&)>& figure) {
   return {std::move(column), [figure](const CaseRow& row) { return row.ok() ? figure(row.measured.first) : Cell(); }};
 }
 
@@ -88,11 +82,11 @@ mesh::TetMesh mesh_of(const Runner& runner, const MeasuredCase& measured) {
   return io::read_tet_mesh(runner.settings().folder / mesh_file(measured));
 }
 
-results::KeptMesh keep_mesh(const Runner& runner, const MeasuredCase& measured, const std::string& title) {
+KeptMesh keep_mesh(const Runner& runner, const MeasuredCase& measured, const std::string& title) {
   const std::string file = "meshes/" + measured.id + ".json";
   if (!std::filesystem::exists(runner.settings().folder / file))
-    results::write_kept_mesh(mesh_of(runner, measured), title, runner.settings().folder / file);
+    write_kept_mesh(mesh_of(runner, measured), title, runner.settings().folder / file);
   return {file, title, run_files(measured).front()};
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::results

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/case.h"
+#include "bench/run/case.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 
 /// The surroundings of a run.
 struct RunPlace {
@@ -34,4 +34,4 @@ void run_next(const RunPlace& place, MeasuredCase& measured);
 /// \throw baselines::Stopped  the user has stopped the program
 void make_mesh_again(const RunPlace& place, const MeasuredCase& measured);
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 
 /// Medians with intervals that cover, also if it depends on the samples how many there are.
 ///

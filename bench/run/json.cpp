@@ -1,4 +1,4 @@
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 #include <nlohmann/json.hpp>
 

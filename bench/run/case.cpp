@@ -1,13 +1,13 @@
-#include "bench/cases/case.h"
+#include "bench/run/case.h"
 
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <utility>
 
-#include "bench/median_interval.h"
+#include "bench/run/median_interval.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 
 void add_run(MeasuredCase& measured, RunRecord record) {
   const bool failed = record.status != baselines::RunStatus::ok;
@@ -20,7 +20,7 @@ void add_run(MeasuredCase& measured, RunRecord record) {
 
 std::vector<int> looks_of(const Repetitions& repetitions) {
   if (repetitions.until <= 0) return {repetitions.at_least};
-  return bench::looks_between(repetitions.at_least, std::max(repetitions.at_least, repetitions.at_most));
+  return looks_between(repetitions.at_least, std::max(repetitions.at_least, repetitions.at_most));
 }
 
 bool are_enough(const Repetitions& repetitions, std::span<const double> samples, double mesh_seconds) {
@@ -31,7 +31,7 @@ bool are_enough(const Repetitions& repetitions, std::span<const double> samples,
   if (look == looks.end()) return false;  // a stop between looks would have to be paid by wider intervals
   const double budget = repetitions.budget_seconds, seconds_until_next = mesh_seconds / counted * *std::next(look);
   return (budget > 0 && seconds_until_next > budget) ||
-         bench::relative_spread(bench::median_estimate(samples, looks)) <= repetitions.until;
+         relative_spread(median_estimate(samples, looks)) <= repetitions.until;
 }
 
 bool needs_run(const MeasuredCase& measured) {
@@ -75,8 +75,8 @@ std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& se
   return samples;
 }
 
-bench::Estimate median_of(const MeasuredCase& measured, const SecondsOf& seconds) {
-  return bench::median_estimate(samples_of(measured, seconds), looks_of(measured.asked.repetitions));
+Estimate median_of(const MeasuredCase& measured, const SecondsOf& seconds) {
+  return median_estimate(samples_of(measured, seconds), looks_of(measured.asked.repetitions));
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

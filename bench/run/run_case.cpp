@@ -1,4 +1,4 @@
-#include "bench/cases/run_case.h"
+#include "bench/run/run_case.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,10 +7,10 @@
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
-#include "bench/cases/verify_run.h"
-#include "bench/environment.h"
+#include "bench/run/environment.h"
+#include "bench/run/verify_run.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
 /// The folder of one run, which is removed at the end.
@@ -68,7 +68,7 @@ void set_option(std::string name, const std::string& value, RunRecord& record) {
 RunRecord record_without_report(const RunPlace& place, const Case& asked) {
   InputPlc unread;
   unread.name = name_in(place.folder, asked.input);
-  RunRecord record = bench::start_record(baselines::mesher(asked.mesher), unread, {});
+  RunRecord record = start_record(baselines::mesher(asked.mesher), unread, {});
   record.set_option("threads", 1.0);
   baselines::NamedOptions options;
   for (std::size_t i = 0; i + 1 < asked.options.size(); i += 2)
@@ -80,13 +80,13 @@ RunRecord record_without_report(const RunPlace& place, const Case& asked) {
 RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesystem::path& report,
                     const baselines::ProcessResult& child) {
   RunRecord record;
-  if (auto own = bench::find_run_record(report)) {
+  if (auto own = find_run_record(report)) {
     record = *std::move(own);
   } else {
     record = record_without_report(place, asked);
     record.set_failure(baselines::FailureKind::crashed, "the process ended without a report");
   }
-  bench::note_end(child, record);
+  note_end(child, record);
   return record;
 }
 
@@ -147,7 +147,7 @@ void run_next(const RunPlace& place, MeasuredCase& measured) {
   std::filesystem::create_directories(folder / "runs");
   // Written in the scratch folder, so that a killed process leaves nothing among the records.
   const auto written = scratch.file("run.json");
-  bench::write_run_record(record, written);
+  write_run_record(record, written);
   std::filesystem::rename(written, folder / file);
   add_run(measured, std::move(record));
 }
@@ -161,4 +161,4 @@ void make_mesh_again(const RunPlace& place, const MeasuredCase& measured) {
   keep_mesh(place, measured, scratch);
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -1,4 +1,4 @@
-#include "bench/environment.h"
+#include "bench/run/environment.h"
 
 #include <nettle/sha2.h>
 #include <sched.h>
@@ -15,8 +15,8 @@
 #include <tuple>
 
 #include "baselines/mesher.h"
-#include "bench/json_fields.h"
 #include "bench/revision.h"
+#include "bench/run/json_fields.h"
 
 namespace ccdt::bench {
 namespace {

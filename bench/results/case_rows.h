@@ -8,17 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "bench/cases/runner.h"
 #include "bench/results/experiment_result.h"
 #include "bench/results/row_columns.h"
-#include "bench/statistics.h"
+#include "bench/run/runner.h"
+#include "bench/run/statistics.h"
 #include "engine/mesh/tet_mesh.h"
 
 /// Tables of measured cases: rows that stand for cases, and the columns that many such tables have.
-namespace ccdt::cases {
+namespace ccdt::results {
 
 using bench::Estimate;
-using results::RowColumn;
 
 /// \name Seconds of a run.
 /// @{
@@ -60,7 +59,7 @@ RowColumn<CaseRow> reason_column();
 RowColumn<CaseRow> seconds_column();
 RowColumn<CaseRow> count_column(std::string name, std::uint64_t MeshCounts::*count, std::string title = {});
 /// A figure of the first run.
-RowColumn<CaseRow> run_column(results::Column column, const std::function<results::Cell(const RunRecord&)>& figure);
+RowColumn<CaseRow> run_column(Column column, const std::function<Cell(const RunRecord&)>& figure);
 /// @}
 
 /// Why a run failed: "timeout: limit of 600 s".
@@ -72,7 +71,7 @@ mesh::TetMesh mesh_of(const Runner& runner, const MeasuredCase& measured);
 
 /// Also keeps this mesh for pictures and the viewer, in meshes/ID.json.
 /// \throw OutputError
-results::KeptMesh keep_mesh(const Runner& runner, const MeasuredCase& measured, const std::string& title);
+KeptMesh keep_mesh(const Runner& runner, const MeasuredCase& measured, const std::string& title);
 
 /// Runs the cases of the rows (`measured.asked`), and fills in the measurements.
 /// \param rows  derived from `CaseRow`
@@ -94,4 +93,4 @@ std::vector<std::string> all_runs_of(const Rows& rows) {
   return files;
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::results

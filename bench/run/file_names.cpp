@@ -1,4 +1,4 @@
-#include "bench/file_names.h"
+#include "bench/run/file_names.h"
 
 #include <algorithm>
 #include <stdexcept>

@@ -1,19 +1,17 @@
-#include "bench/cases/verify_run.h"
+#include "bench/run/verify_run.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "baselines/mesher.h"
-#include "bench/json.h"
+#include "bench/run/json.h"
 #include "engine/base/errors.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
-using bench::VerifiedMesh;
-
-constexpr bench::DocumentKind verification_kind = {"ccdt.verify/1", "not a report of schema ccdt.verify/1",
-                                                   "verify the mesh again"};
+constexpr DocumentKind verification_kind = {"ccdt.verify/1", "not a report of schema ccdt.verify/1",
+                                            "verify the mesh again"};
 
 /// An exact check takes longer than a mesher, but at most by this factor.
 constexpr double seconds_per_second = 20, least_seconds = 300;
@@ -38,9 +36,9 @@ std::vector<std::string> options_of(const Case& asked) {
   return options;
 }
 
-VerifiedMesh verified_from(const bench::Json& json) {
+VerifiedMesh verified_from(const Json& json) {
   VerifiedMesh verified{.right = json.at("ok")};
-  for (const bench::Json& check : json.at("checks"))
+  for (const Json& check : json.at("checks"))
     if (check.at("required") && check.at("failed") > 0)
       verified.checks.push_back({check.at("name"), check.at("checked"), check.at("failed")});
   return verified;
@@ -83,7 +81,7 @@ void verify_run(const RunPlace& place, const MeasuredCase& measured, const RunFi
   const auto child =
       baselines::run_program(command, {.folder = place.folder, .limits = limits, .scratch = files.scratch});
   try {
-    VerifiedMesh verified = bench::read_document(report, verification_kind, verified_from);
+    VerifiedMesh verified = read_document(report, verification_kind, verified_from);
     verified.seconds = child.seconds;
     take(verified, record);
   } catch (const InputError&) {
@@ -91,4 +89,4 @@ void verify_run(const RunPlace& place, const MeasuredCase& measured, const RunFi
   }
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

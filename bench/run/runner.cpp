@@ -1,4 +1,4 @@
-#include "bench/cases/runner.h"
+#include "bench/run/runner.h"
 
 #include <algorithm>
 #include <map>
@@ -7,12 +7,12 @@
 #include <set>
 #include <utility>
 
-#include "bench/cases/run_case.h"
-#include "bench/environment.h"
-#include "bench/in_parallel.h"
+#include "bench/run/environment.h"
+#include "bench/run/in_parallel.h"
+#include "bench/run/run_case.h"
 #include "engine/base/errors.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
 /// The largest number of records that a case can have. Whether each run was needed was decided when it was made;
@@ -28,7 +28,7 @@ MeasuredCase read_case(const RunnerSettings& settings, const Case& asked, const 
                        const std::set<std::string>& retried) {
   MeasuredCase measured{asked, id};
   while (!measured.failed() && measured.runs < most_runs(asked.repetitions)) {
-    auto record = bench::find_run_record(settings.folder / run_file(id, measured.runs));
+    auto record = find_run_record(settings.folder / run_file(id, measured.runs));
     if (!record) break;
     const bool failed = record->status != baselines::RunStatus::ok;
     if (failed && settings.retry_failed && !retried.contains(id)) break;
@@ -132,7 +132,7 @@ Group next_round(const Group& group, std::uint64_t seed) {
     if (round.empty() || measured->runs == round.front()->runs) round.push_back(measured);
   }
   const auto key = [&](const MeasuredCase* measured) {
-    return bench::sha256_of_text(std::to_string(seed) + " " + std::to_string(measured->runs) + " " + measured->id);
+    return sha256_of_text(std::to_string(seed) + " " + std::to_string(measured->runs) + " " + measured->id);
   };
   std::ranges::sort(round, {}, key);
   return round;
@@ -148,12 +148,12 @@ void run_beside(const RunPlace& place, const Group& cases, RunCounter& counter) 
   const auto run_all = [&](std::size_t i) {
     while (needs_run(*cases[i])) run_counted(place, *cases[i], counter);
   };
-  bench::in_parallel(cases.size(), run_all, static_cast<std::size_t>(place.jobs));
+  in_parallel(cases.size(), run_all, static_cast<std::size_t>(place.jobs));
 }
 
 bool is_uncertain(const MeasuredCase& measured) {
   const double until = measured.asked.repetitions.until;
-  return until > 0 && !measured.failed() && bench::relative_spread(median_of(measured, measured.asked.seconds)) > until;
+  return until > 0 && !measured.failed() && relative_spread(median_of(measured, measured.asked.seconds)) > until;
 }
 
 }  // namespace
@@ -165,7 +165,7 @@ std::vector<MeasuredCase> Runner::load(std::span<const Case> cases) {
   for (std::size_t i = 0; i < cases.size(); ++i)  // here, because only one thread may use the hashes
     for (const Identity& identity : settings_.identities) ids[i].push_back(id_of(cases[i], identity, hashes_));
   std::vector<MeasuredCase> all(cases.size());
-  bench::in_parallel(cases.size(), [&](std::size_t i) { all[i] = find_case(settings_, cases[i], ids[i], tried_); });
+  in_parallel(cases.size(), [&](std::size_t i) { all[i] = find_case(settings_, cases[i], ids[i], tried_); });
   return all;
 }
 
@@ -193,4 +193,4 @@ MeasuredCase Runner::run(const Case& asked) {
   return run(std::span(&asked, 1)).front();
 }
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -1,4 +1,4 @@
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 
 #include <algorithm>
 #include <boost/math/distributions/binomial.hpp>

@@ -2,10 +2,10 @@
 
 #include <filesystem>
 
-#include "bench/cases/case.h"
-#include "bench/cases/run_case.h"
+#include "bench/run/case.h"
+#include "bench/run/run_case.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 
 /// The files of a run whose mesh is verified.
 struct RunFiles {
@@ -22,4 +22,4 @@ struct RunFiles {
 /// \throw baselines::Stopped  the user has stopped the program
 void verify_run(const RunPlace& place, const MeasuredCase& measured, const RunFiles& files, RunRecord& record);
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -7,13 +7,11 @@
 #include <vector>
 
 #include "baselines/process.h"
-#include "bench/run_record.h"
-#include "bench/statistics.h"
+#include "bench/run/run_record.h"
+#include "bench/run/statistics.h"
 #include "engine/mesher.h"
 
-namespace ccdt::cases {
-
-using bench::RunRecord;
+namespace ccdt::bench {
 
 /// How often a case is run.
 struct Repetitions {
@@ -87,6 +85,6 @@ std::vector<double> samples_of(const MeasuredCase& measured, const SecondsOf& se
 
 /// The median of these seconds with its interval.
 /// \pre there is a counted run
-bench::Estimate median_of(const MeasuredCase& measured, const SecondsOf& seconds);
+Estimate median_of(const MeasuredCase& measured, const SecondsOf& seconds);
 
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 namespace ccdt::bench {
 

@@ -1,11 +1,11 @@
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 
-namespace ccdt::results {
+namespace ccdt::bench {
 namespace {
 
 /// The number with this many digits after the point.
@@ -34,7 +34,7 @@ std::string rounded(double value, int digits) {
   return with_decimals(value, decimals_for(value, digits));
 }
 
-std::string with_interval(const bench::Estimate& e) {
+std::string with_interval(const Estimate& e) {
   if (!e.has_interval()) return rounded(e.value);
   // Three digits of the value, or two of the interval's width if that takes more, but not more than five of the value.
   const int decimals =
@@ -63,4 +63,4 @@ std::string joined(const std::vector<std::string>& words, std::string_view separ
   return text;
 }
 
-}  // namespace ccdt::results
+}  // namespace ccdt::bench

@@ -1,4 +1,4 @@
-#include "bench/quality.h"
+#include "bench/run/quality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 
