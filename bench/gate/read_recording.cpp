@@ -46,7 +46,7 @@ Json parse(const std::filesystem::path& file) {
 }
 
 bool is_run(const Json& json) {
-  return json.is_object() && json.contains("schema") && json["schema"] == "ccdt.run/1";
+  return json.is_object() && bench::value_at(json, "schema") == bench::run_document.schema;
 }
 
 /// Longer names are no figures of ours; with many members, they would take more memory than the file by far.

@@ -4,6 +4,7 @@
 
 #include "bench/run/json.h"
 #include "bench/run/run_case.h"
+#include "bench/run/run_record.h"
 
 namespace ccdt::gate {
 namespace {
@@ -12,17 +13,9 @@ constexpr const char* whole_process = "wall";
 
 /// "seconds.mesh" in the report of a run.
 double figure_of(const std::filesystem::path& report, const std::string& figure) {
-  static constexpr bench::DocumentKind kind = {"ccdt.run/1", "not a report of schema ccdt.run/1",
-                                               "the program must be ccdt"};
   double seconds = 0;
-  bench::parse_document(report, kind, [&](const bench::Json& json) {
-    const bench::Json* value = &json;
-    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-      end = figure.find('.', begin);
-      value = &value->at(figure.substr(begin, end == std::string::npos ? end : end - begin));
-    }
-    value->get_to(seconds);
-  });
+  bench::parse_document(report, bench::run_document,
+                        [&](const bench::Json& json) { bench::value_at(json, figure).get_to(seconds); });
   return seconds;
 }
 

@@ -17,7 +17,7 @@
 /// Tables of measured cases: rows that stand for cases, and the columns that many such tables have.
 namespace ccdt::results {
 
-using bench::Estimate;
+using bench::Case, bench::Estimate, bench::MeasuredCase, bench::Runner, bench::RunRecord, bench::SecondsOf;
 
 /// \name Seconds of a run.
 /// @{

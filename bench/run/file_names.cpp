@@ -27,4 +27,10 @@ void check_file_path(const std::string& path) {
   }
 }
 
+std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  const auto whole = std::filesystem::absolute(file).lexically_normal();
+  const auto name = whole.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
+  return name.empty() || *name.begin() == ".." ? whole.string() : name.string();
+}
+
 }  // namespace ccdt::bench

@@ -16,7 +16,6 @@ namespace ccdt::bench {
 namespace {
 
 constexpr double regular_factor = 8.485281374238570;  ///< 6 sqrt(2): makes the regular tetrahedron's r equal to 1
-constexpr double degrees = 180 / std::numbers::pi;
 
 /// Growing steps for r and the aspect ratio: nearly all tetrahedra are near 1, and the bad ones are spread over
 /// decades.

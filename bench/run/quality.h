@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <numbers>
 #include <vector>
 
 #include "engine/mesh/tet_mesh.h"
@@ -13,6 +14,9 @@ struct Histogram {
   std::vector<double> edges;
   std::vector<std::uint64_t> counts;
 };
+
+/// The degrees of one radian.
+inline constexpr double degrees = 180 / std::numbers::pi;
 
 struct Quality {
   /// A measure of all tetrahedra: smaller is better, and it grows without bound as a tetrahedron degenerates.

@@ -8,6 +8,7 @@
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
 #include "bench/run/environment.h"
+#include "bench/run/file_names.h"
 #include "bench/run/verify_run.h"
 
 namespace ccdt::bench {
@@ -33,13 +34,6 @@ class Scratch {
  private:
   std::filesystem::path folder_;
 };
-
-/// A file by its name relative to the folder if it is inside, otherwise by its full path.
-std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  const auto whole = std::filesystem::absolute(file).lexically_normal();
-  const auto name = whole.lexically_relative(std::filesystem::absolute(folder).lexically_normal());
-  return name.empty() || *name.begin() == ".." ? whole.string() : name.string();
-}
 
 std::string mesh_ending(const Case& asked) {
   return asked.mesh_ending.empty() ? ".vtu" : asked.mesh_ending;

@@ -90,9 +90,6 @@ inline constexpr auto fields<VerifiedMesh> = std::tuple(field("right", &Verified
 
 namespace {
 
-constexpr DocumentKind run_document = {"ccdt.run/1", "not a report of schema ccdt.run/1",
-                                       "give the JSON that `ccdt mesh --report` wrote"};
-
 constexpr auto fields_before_seconds =
     std::tuple(optional_field("command", &RunRecord::command), field("environment", &RunRecord::environment),
                field("counts", &RunRecord::counts));
@@ -266,6 +263,14 @@ void note_end(const baselines::ProcessResult& ended, RunRecord& record) {
   // A process that ended by itself may report that its own child process crashed.
   const bool says_it_itself = ended.signal == 0 && record.kind;
   if (ended.kind && !says_it_itself) record.set_failure(*ended.kind, ended.reason);
+}
+
+const Json& value_at(const Json& json, std::string_view path) {
+  static const Json nothing;
+  const std::size_t end = std::min(path.find('.'), path.size());
+  const auto found = json.is_object() ? json.find(path.substr(0, end)) : json.end();
+  if (found == json.end()) return nothing;
+  return end == path.size() ? *found : value_at(*found, path.substr(end + 1));
 }
 
 std::string to_json(const RunRecord& record) {

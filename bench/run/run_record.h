@@ -11,6 +11,7 @@
 #include "baselines/mesher.h"
 #include "baselines/process.h"
 #include "bench/run/environment.h"
+#include "bench/run/json.h"
 #include "bench/run/quality.h"
 
 namespace ccdt::bench {
@@ -72,6 +73,14 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
 /// Adds the end of its process to the record of a run. A process that failed by itself wrote more into its record than
 /// its exit code says; a killed one could not.
 void note_end(const baselines::ProcessResult& ended, RunRecord& record);
+
+/// The document of a run.
+inline constexpr DocumentKind run_document = {"ccdt.run/1", "not a report of schema ccdt.run/1",
+                                              "give the JSON that `ccdt mesh --report` wrote"};
+
+/// What a document has at a path, "seconds.mesh"; null if there is nothing. For readers that need few of its values, or
+/// values whose names come from elsewhere.
+const Json& value_at(const Json& json, std::string_view path);
 
 /// As JSON of schema `ccdt.run/1`, indented.
 std::string to_json(const RunRecord& record);

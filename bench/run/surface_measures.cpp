@@ -8,12 +8,11 @@
 #include <span>
 #include <vector>
 
+#include "bench/run/quality.h"
 #include "bench/run/statistics.h"
 
 namespace ccdt::bench {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 constexpr double least_kept_angle = 25;
 constexpr double largest_kept_ratio = 2;      ///< of the 95th percentile of the edges to the 5th

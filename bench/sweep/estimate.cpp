@@ -167,7 +167,7 @@ SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const bench::Me
     if (!cases[i].asked.mesh_ending.empty()) sum.disk_bytes += mesh_bytes * estimate.tetrahedra;
     if (!std::filesystem::exists(cases[i].input.file) && models.insert(cases[i].input.file).second)
       sum.disk_bytes += model_bytes * size_of(cases[i].input).triangles;
-    if (estimate.neighbors == 0) unknown.insert(cases[i].mesher());
+    if (estimate.neighbors == 0) unknown.insert(cases[i].mesher);
   }
   sum.disk_bytes += largest_mesh;  // every mesh is written, and removed if it is not kept
   sum.unknown_meshers.assign(unknown.begin(), unknown.end());

@@ -13,9 +13,10 @@ namespace ccdt::sweep {
 
 /// The document of a sweep's folder: DIR/sweep.json, schema ccdt.sweep/1.
 struct SweepDocument {
+  std::string name;
   std::uint64_t seed = 1;                   ///< of the spec
   std::vector<bench::Identity> identities;  ///< identities whose records count; the first is that of the last call
-  std::vector<SweepCase> cases;             ///< ready for `bench::Runner`
+  std::vector<SweepCase> cases;             ///< without words for the command line; `asked_of` adds them
 };
 
 /// The document of a folder.

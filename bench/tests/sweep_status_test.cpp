@@ -66,7 +66,7 @@ class SweepEstimates : public testing::Test {
   /// A cube, and the cost of its run if it is finished.
   void add(const std::string& mesher, double edge_length, const std::vector<bench::RunRecord>& runs = {}) {
     sweep::SweepCase one;
-    one.asked.mesher = mesher;
+    one.asked.mesher = one.mesher = mesher;
     one.input = {"cube", "/nowhere/cube.poly", "cube", edge_length};
     cases_.push_back(one);
     measured_.push_back(measured(std::to_string(cases_.size()), runs));

@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "bench/results/sweep_runs.h"
 #include "bench/run/statistics.h"
-#include "bench/sweep_results/sweep_runs.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 
 /// An interval with a half-width above this share of its value is too wide, whatever the spec says.
 inline constexpr double widest_spread = 0.1;
 
 /// A case as the tables show it.
 struct CaseSummary {
-  const SweepCase* of = nullptr;
+  const CaseRuns* of = nullptr;
   std::string series;              ///< the mesher, with those of its options that vary: "ccdt bcc octree"
   std::string legend;              ///< the same with so few options that charts can distinguish all series: "ccdt bcc"
   std::string status = "not run";  ///< of its first run that failed, otherwise of all
@@ -31,7 +31,7 @@ struct CaseSummary {
   bool is_solved() const { return status == "ok"; }
 };
 
-/// The files of the runs behind a row, for `results::table_of_rows`.
+/// The files of the runs behind a row, for `table_of_rows`.
 inline const std::vector<std::string>& runs_of(const CaseSummary& summary) {
   return summary.runs;
 }
@@ -43,4 +43,4 @@ std::vector<CaseSummary> summarize_cases(const Sweep& sweep);
 std::optional<double> number_of(const CaseSummary& summary, RunField field);
 std::string_view text_of(const CaseSummary& summary, RunField field);
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

@@ -4,15 +4,10 @@
 #include <set>
 #include <utility>
 
-#include "bench/sweep_results/sweep_tables.h"
+#include "bench/results/sweep_tables.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 namespace {
-
-using results::Cell;
-using results::cell_of;
-using results::ColumnKind;
-using results::ResultRow;
 
 /// A series is left out if it solves less than this share of the inputs; otherwise few inputs would remain for all.
 constexpr double least_solved = 0.5;
@@ -29,8 +24,8 @@ struct Point {
   bool is_on_front = true;
 };
 
-std::string group_of(const SweepCase& one) {
-  return one.model.empty() ? "files" : one.model;
+std::string family_of(const CaseRuns& one) {
+  return one.input.model.empty() ? "files" : one.input.model;
 }
 
 /// The inputs that all series with enough of them have solved.
@@ -77,22 +72,22 @@ ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases)
   std::map<std::string, std::map<std::string, CasesByInput>> groups;
   std::map<std::string, std::set<std::string>> inputs;
   for (const CaseSummary& s : cases) {
-    if (s.is_run()) inputs[group_of(*s.of)].insert(s.of->input);
+    if (s.is_run()) inputs[family_of(*s.of)].insert(s.of->input.name);
     if (s.seconds && s.seconds->value > 0 && number_of(s, "r_max"))
-      groups[group_of(*s.of)][s.series].emplace(s.of->input, &s);
+      groups[family_of(*s.of)][s.series].emplace(s.of->input.name, &s);
   }
   ResultTable table{"pareto",
                     "Quality against time",
                     {{"group", "group", ColumnKind::label}, {"mesher", "mesher", ColumnKind::label}}};
   for (const std::string& option : sweep.options)
     table.columns.push_back({option_column(option), option, ColumnKind::label});
-  const std::vector<results::Column> more = {{"legend", "series", ColumnKind::note},
-                                             {"inputs", "inputs that all have solved", ColumnKind::time},
-                                             {"seconds", "seconds, geometric mean", ColumnKind::time, "s"},
-                                             {"worst_r", "worst r", ColumnKind::figure},
-                                             {"mean_r", "mean r", ColumnKind::figure},
-                                             {"min_dihedral", "smallest dihedral angle", ColumnKind::figure, "degrees"},
-                                             {"front", "no other is faster and better", ColumnKind::time}};
+  const std::vector<Column> more = {{"legend", "series", ColumnKind::note},
+                                    {"inputs", "inputs that all have solved", ColumnKind::time},
+                                    {"seconds", "seconds, geometric mean", ColumnKind::time, "s"},
+                                    {"worst_r", "worst r", ColumnKind::figure},
+                                    {"mean_r", "mean r", ColumnKind::figure},
+                                    {"min_dihedral", "smallest dihedral angle", ColumnKind::figure, "degrees"},
+                                    {"front", "no other is faster and better", ColumnKind::time}};
   table.columns.insert(table.columns.end(), more.begin(), more.end());
   for (auto& [group, series] : groups) {
     const std::set<std::string> common = common_inputs(series, inputs[group].size());
@@ -102,7 +97,7 @@ ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases)
     find_front(points);
     for (auto& [name, p] : points) {
       ResultRow& row = table.rows.emplace_back(ResultRow{{group, p.example->of->mesher}, std::move(p.runs)});
-      row.cells.insert(row.cells.end(), p.example->of->options.begin(), p.example->of->options.end());
+      row.cells.insert(row.cells.end(), p.example->of->values.begin(), p.example->of->values.end());
       row.cells.insert(row.cells.end(), {p.example->legend, static_cast<double>(common.size()), p.seconds, p.worst_r,
                                          p.mean_r, p.min_dihedral, cell_of(p.is_on_front)});
     }
@@ -110,4 +105,4 @@ ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases)
   return table;
 }
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

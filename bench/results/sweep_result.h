@@ -1,18 +1,17 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "bench/results/experiment_result.h"
-#include "bench/sweep_results/sweep_runs.h"
+#include "bench/results/sweep_runs.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 
 /// The name of the result of a sweep, among those of the experiments.
 inline constexpr const char* sweep_name = "sweep";
 
 /// The result of a sweep, in the form of an experiment.
-results::ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& folder);
+ExperimentResult sweep_result(const Sweep& sweep);
 
 /// \name One line for each run, with the same flat columns in both: for pandas and R. Figures have all their digits.
 /// @{
@@ -23,4 +22,4 @@ std::string runs_as_json_lines(const Sweep& sweep);
 /// The names of the columns of these files, for help texts.
 std::string run_columns_help();
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

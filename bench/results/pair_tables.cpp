@@ -5,28 +5,23 @@
 #include <set>
 #include <unordered_map>
 
+#include "bench/results/sweep_tables.h"
 #include "bench/run/median_interval.h"
 #include "bench/run/numbers.h"
-#include "bench/sweep_results/sweep_tables.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 namespace {
-
-using results::Cell;
-using results::cell_of;
-using results::ColumnKind;
-using results::ResultRow;
 
 /// Our mesher if it takes part, otherwise the first one.
 std::string reference_of(const Sweep& sweep) {
-  const bool has_ours = std::ranges::any_of(sweep.cases, [](const SweepCase& c) { return c.mesher == "ccdt"; });
+  const bool has_ours = std::ranges::any_of(sweep.cases, [](const CaseRuns& c) { return c.mesher == "ccdt"; });
   return has_ours || sweep.cases.empty() ? "ccdt" : sweep.cases.front().mesher;
 }
 
 /// Are the options that both meshers have equal?
-bool have_same_options(const SweepCase& a, const SweepCase& b) {
-  for (std::size_t i = 0; i < a.options.size(); ++i)
-    if (!a.options[i].empty() && !b.options[i].empty() && a.options[i] != b.options[i]) return false;
+bool have_same_options(const CaseRuns& a, const CaseRuns& b) {
+  for (std::size_t i = 0; i < a.values.size(); ++i)
+    if (!a.values[i].empty() && !b.values[i].empty() && a.values[i] != b.values[i]) return false;
   return true;
 }
 
@@ -60,11 +55,13 @@ void thin_out(ResultTable& pairs) {
   std::erase_if(pairs.rows, [&](const ResultRow&) { return static_cast<double>(random() >> 11) * 0x1p-53 > share; });
 }
 
-void add_pair(const CaseSummary& first, const CaseSummary& second, ResultTable& pairs) {
-  ResultRow& row = pairs.rows.emplace_back(ResultRow{label_cells(first), first.runs});
-  row.runs.insert(row.runs.end(), second.runs.begin(), second.runs.end());
-  row.cells.insert(row.cells.end(), {first.of->mesher + " / " + second.of->mesher, first.legend, Cell(*first.seconds),
-                                     Cell(*second.seconds), first.seconds->value / second.seconds->value});
+void add_pair(const RowColumns<CaseSummary>& labels, const CaseSummary& first, const CaseSummary& second,
+              ResultTable& pairs) {
+  std::vector<std::string> runs = first.runs;
+  runs.insert(runs.end(), second.runs.begin(), second.runs.end());
+  add_row(pairs, std::move(runs), cells_of(labels, first),
+          cells(first.of->mesher + " / " + second.of->mesher, first.legend, *first.seconds, *second.seconds,
+                first.seconds->value / second.seconds->value));
 }
 
 }  // namespace
@@ -81,28 +78,29 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
                       {"neither", "by neither", ColumnKind::time},
                       {"faster", "first is faster", ColumnKind::time},
                       {"ratio", "seconds of the first / second, median", ColumnKind::time}}},
-                    {"pairs", "Pairs of cases", label_columns(sweep), {}, true},
+                    labeled_table(sweep, "pairs", "Pairs of cases",
+                                  {{"meshers", "meshers", ColumnKind::note},
+                                   {"legend", "legend", ColumnKind::note},
+                                   {"first_seconds", "seconds of the first", ColumnKind::time, "s"},
+                                   {"second_seconds", "seconds of the second", ColumnKind::time, "s"},
+                                   {"ratio", "ratio", ColumnKind::time}},
+                                  true),
                     {"diagonals",
                      "Diagonals",
                      {{"meshers", "meshers", ColumnKind::note}, {"seconds", "seconds", ColumnKind::time, "s"}},
                      {},
                      true}};
-  tables.pairs.columns.insert(tables.pairs.columns.end(),
-                              {{"meshers", "meshers", ColumnKind::note},
-                               {"legend", "legend", ColumnKind::note},
-                               {"first_seconds", "seconds of the first", ColumnKind::time, "s"},
-                               {"second_seconds", "seconds of the second", ColumnKind::time, "s"},
-                               {"ratio", "ratio", ColumnKind::time}});
+  const RowColumns<CaseSummary> labels = label_columns(sweep);
   std::unordered_map<std::string, std::vector<const CaseSummary*>> others;
   for (const CaseSummary& s : cases)
-    if (s.of->mesher != tables.reference && s.is_run()) others[s.of->input].push_back(&s);
+    if (s.of->mesher != tables.reference && s.is_run()) others[s.of->input.name].push_back(&s);
   std::map<std::string, PairCounts> counts;
   for (const CaseSummary& first : cases) {
     if (first.of->mesher != tables.reference || !first.is_run()) continue;
-    for (const CaseSummary* second : others[first.of->input]) {
+    for (const CaseSummary* second : others[first.of->input.name]) {
       if (!have_same_options(*first.of, *second->of)) continue;
       count(first, *second, counts[second->of->mesher]);
-      if (first.seconds && second->seconds) add_pair(first, *second, tables.pairs);
+      if (first.seconds && second->seconds) add_pair(labels, first, *second, tables.pairs);
     }
   }
   thin_out(tables.pairs);
@@ -119,4 +117,4 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
   return tables;
 }
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

@@ -5,15 +5,11 @@
 #include <set>
 #include <utility>
 
+#include "bench/results/sweep_tables.h"
 #include "bench/run/statistics.h"
-#include "bench/sweep_results/sweep_tables.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 namespace {
-
-using results::Cell;
-using results::ColumnKind;
-using results::ResultRow;
 
 constexpr std::size_t fewest_sizes = 3;
 constexpr std::size_t most_facets = 6;
@@ -26,8 +22,8 @@ struct Family {
 };
 
 /// The shape of a family: a model, or the same file with several edge lengths.
-std::string family_name(const SweepCase& one) {
-  return one.model.empty() ? one.input : one.model;
+std::string family_name(const CaseRuns& one) {
+  return one.input.model.empty() ? one.input.name : one.input.model;
 }
 
 std::vector<Family> families_of(const Sweep& sweep, std::span<const CaseSummary> cases) {
@@ -37,7 +33,7 @@ std::vector<Family> families_of(const Sweep& sweep, std::span<const CaseSummary>
     if (!s.seconds || !(s.seconds->value > 0) || !(size > 0)) continue;
     std::string key = family_name(*s.of) + '\n' + s.of->mesher;
     for (std::size_t i = 0; i < sweep.options.size(); ++i)
-      if (sweep.options[i] != "edge-length") key += '\n' + s.of->options[i];
+      if (sweep.options[i] != "edge-length") key += '\n' + s.of->values[i];
     Family& family = families[key];
     family.cases.push_back(&s);
     family.sizes.push_back(size);
@@ -50,69 +46,58 @@ std::vector<Family> families_of(const Sweep& sweep, std::span<const CaseSummary>
 }
 
 /// The common labels of a family; empty where its members differ.
-std::vector<Cell> common_labels(const Family& family) {
-  std::vector<Cell> common = label_cells(*family.cases.front());
-  for (const CaseSummary* one : family.cases) {
-    const std::vector<Cell> labels = label_cells(*one);
+std::vector<Cell> common_labels(const RowColumns<CaseSummary>& labels, const Family& family) {
+  std::vector<Cell> common = cells_of(labels, *family.cases.front());
+  for (const CaseSummary* one : family.cases)
     for (std::size_t i = 0; i < labels.size(); ++i)
-      if (const auto* text = std::get_if<std::string>(&labels[i]); text == nullptr || common[i] != Cell(*text))
+      if (const Cell label = labels[i].cell(*one); !std::holds_alternative<std::string>(label) || common[i] != label)
         common[i] = Cell();
-  }
   return common;
 }
 
 }  // namespace
 
 ScalingTables scaling_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
-  const std::vector<results::Column> labels = label_columns(sweep);
-  const auto begin = [&](const char* name, const char* title, std::vector<results::Column> more, bool is_data) {
-    ResultTable table{name, title, labels, {}, is_data};
-    std::ranges::move(more, std::back_inserter(table.columns));
-    return table;
-  };
-  const std::vector<results::Column> of_point = {
+  const RowColumns<CaseSummary> labels = label_columns(sweep);
+  const std::vector<Column> of_point = {
       {"family", "family", ColumnKind::note},           {"facet", "facet", ColumnKind::note},
       {"series", "series", ColumnKind::note},           {"legend", "legend", ColumnKind::note},
       {"tetrahedra", "tetrahedra", ColumnKind::figure}, {"seconds", "seconds", ColumnKind::time, "s"}};
-  ScalingTables tables{begin("scaling", "Growth of the time with the number of tetrahedra",
-                             {{"sizes", "sizes", ColumnKind::figure},
-                              {"smallest", "smallest, tetrahedra", ColumnKind::figure},
-                              {"largest", "largest, tetrahedra", ColumnKind::figure},
-                              {"exponent", "exponent", ColumnKind::time},
-                              {"explained", "variance explained", ColumnKind::time},
-                              {"speed", "tetrahedra per second, at the largest size", ColumnKind::time}},
-                             false),
-                       begin("scaling_points", "Times and sizes", of_point, true),
-                       begin("scaling_lines", "Fitted lines", of_point, true)};
+  ScalingTables tables{labeled_table(sweep, "scaling", "Growth of the time with the number of tetrahedra",
+                                     {{"sizes", "sizes", ColumnKind::figure},
+                                      {"smallest", "smallest, tetrahedra", ColumnKind::figure},
+                                      {"largest", "largest, tetrahedra", ColumnKind::figure},
+                                      {"exponent", "exponent", ColumnKind::time},
+                                      {"explained", "variance explained", ColumnKind::time},
+                                      {"speed", "tetrahedra per second, at the largest size", ColumnKind::time}}),
+                       labeled_table(sweep, "scaling_points", "Times and sizes", of_point, true),
+                       labeled_table(sweep, "scaling_lines", "Fitted lines", of_point, true)};
   const std::vector<Family> families = families_of(sweep, cases);
   std::set<std::string> names;
   for (const Family& family : families) names.insert(family_name(*family.cases.front()->of));
   for (const Family& family : families) {
-    const std::vector<Cell> common = common_labels(family);
+    const std::vector<Cell> common = common_labels(labels, family);
     const std::string name = family_name(*family.cases.front()->of);
     const std::string facet = names.size() > most_facets ? "all inputs" : name;
     const std::string &series = family.cases.front()->series, &legend = family.cases.front()->legend;
     const auto [low, high] = std::ranges::minmax(family.sizes);
     std::vector<std::string> runs;
     for (const CaseSummary* one : family.cases) {
-      ResultRow& point = tables.points.rows.emplace_back(ResultRow{label_cells(*one), one->runs});
-      point.cells.insert(point.cells.end(),
-                         {name, facet, series, legend, *number_of(*one, "tetrahedra"), Cell(*one->seconds)});
+      add_row(tables.points, one->runs, cells_of(labels, *one),
+              cells(name, facet, series, legend, *number_of(*one, "tetrahedra"), *one->seconds));
       runs.insert(runs.end(), one->runs.begin(), one->runs.end());
     }
     if (high < least_span * low) continue;
     const bench::LineFit fit = bench::fit_power(family.sizes, family.seconds);
-    ResultRow& row = tables.fits.rows.emplace_back(ResultRow{common, std::move(runs)});
     const auto largest = static_cast<std::size_t>(std::ranges::max_element(family.sizes) - family.sizes.begin());
-    row.cells.insert(row.cells.end(), {static_cast<double>(family.sizes.size()), low, high, Cell(fit.slope),
-                                       fit.r_squared, high / family.seconds[largest]});
-    for (const double size : {low, high}) {
-      ResultRow& end = tables.lines.rows.emplace_back(ResultRow{common, {}});
-      end.cells.insert(end.cells.end(),
-                       {name, facet, series, legend, size, std::exp(fit.intercept + fit.slope.value * std::log(size))});
-    }
+    add_row(
+        tables.fits, std::move(runs), common,
+        cells(std::uint64_t{family.sizes.size()}, low, high, fit.slope, fit.r_squared, high / family.seconds[largest]));
+    for (const double size : {low, high})
+      add_row(tables.lines, {}, common,
+              cells(name, facet, series, legend, size, std::exp(fit.intercept + fit.slope.value * std::log(size))));
   }
   return tables;
 }
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

@@ -2,32 +2,32 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "bench/results/row_columns.h"
+#include "bench/results/sweep_result.h"
+#include "bench/run/file_names.h"
 #include "bench/run/numbers.h"
-#include "bench/sweep_results/sweep_result.h"
 #include "engine/base/digits.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 namespace {
-
-using results::Cell;
 
 /// The columns before those of the record: the data of the sweep.
 constexpr auto case_columns = std::to_array<std::string_view>(
     {"case", "number", "counted", "file", "name", "input", "input_file", "model", "edge_length"});
 
 /// All values of a run, in the order of `names_of`.
-std::vector<Cell> values_of(const SweepCase& of, const NumberedRun& run) {
+std::vector<Cell> values_of(const Sweep& sweep, const CaseRuns& of, const NumberedRun& run) {
   std::vector<Cell> values = {of.id,
                               static_cast<double>(run.number),
-                              std::string(run.number >= of.wanted.warm_up ? "yes" : "no"),
+                              std::string(run.number >= of.asked.repetitions.warm_up ? "yes" : "no"),
                               run.file,
-                              of.name,
-                              of.input,
-                              of.input_file,
-                              of.model,
-                              results::cell_of(of.edge_length)};
+                              of.asked.name,
+                              of.input.name,
+                              bench::name_in(sweep.folder, of.input.file),
+                              of.input.model,
+                              cell_if(!of.input.model.empty(), of.input.edge_length)};
   values.insert(values.end(), run.values.cells.begin(), run.values.cells.end());
-  values.insert(values.end(), of.options.begin(), of.options.end());
+  values.insert(values.end(), of.values.begin(), of.values.end());
   return values;
 }
 
@@ -55,9 +55,9 @@ std::string csv_text(const Cell& cell) {
 
 std::string runs_as_csv(const Sweep& sweep) {
   std::string text = bench::joined(names_of(sweep), ",") + "\r\n";
-  for (const SweepCase& of : sweep.cases)
+  for (const CaseRuns& of : sweep.cases)
     for (const NumberedRun& run : of.runs) {
-      const std::vector<Cell> values = values_of(of, run);
+      const std::vector<Cell> values = values_of(sweep, of, run);
       for (std::size_t i = 0; i < values.size(); ++i) text.append(i == 0 ? "" : ",").append(csv_text(values[i]));
       text += "\r\n";
     }
@@ -67,12 +67,12 @@ std::string runs_as_csv(const Sweep& sweep) {
 std::string runs_as_json_lines(const Sweep& sweep) {
   const std::vector<std::string> names = names_of(sweep);
   std::string text;
-  for (const SweepCase& of : sweep.cases)
+  for (const CaseRuns& of : sweep.cases)
     for (const NumberedRun& run : of.runs) {
-      const std::vector<Cell> values = values_of(of, run);
+      const std::vector<Cell> values = values_of(sweep, of, run);
       bench::Json line = bench::Json::object();
       for (std::size_t i = 0; i < values.size(); ++i)
-        line[names[i]] = values[i] == Cell(std::string()) ? bench::Json() : results::cell_json(values[i]);
+        line[names[i]] = values[i] == Cell(std::string()) ? bench::Json() : cell_json(values[i]);
       text += line.dump(-1, ' ', false, bench::Json::error_handler_t::replace) + "\n";
     }
   return text;
@@ -85,4 +85,4 @@ std::string run_columns_help() {
   return text + "option_NAME";
 }
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

@@ -1,20 +1,19 @@
-#include "bench/sweep_results/sweep_result.h"
+#include "bench/results/sweep_result.h"
 
 #include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
 
+#include "bench/results/sweep_tables.h"
 #include "bench/run/numbers.h"
 #include "bench/run/run_record.h"
-#include "bench/sweep_results/sweep_tables.h"
 #include "engine/base/errors.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 namespace {
 
 using bench::with_separators;
-using results::ExperimentResult;
 
 std::string counted(std::size_t count, const std::string& noun) {
   return with_separators(count) + " " + noun + (count == 1 ? "" : "s");
@@ -30,19 +29,21 @@ std::size_t count_of(std::span<const CaseSummary> cases, Test test) {
 }
 
 /// The environment of the first readable run.
-bench::Environment environment_of(const Sweep& sweep, const std::filesystem::path& folder) {
-  for (const SweepCase& one : sweep.cases)
+bench::Environment environment_of(const Sweep& sweep) {
+  for (const CaseRuns& one : sweep.cases)
     for (const NumberedRun& run : one.runs) try {
-        return bench::read_run_record(folder / run.file).environment;
+        return bench::read_run_record(sweep.folder / run.file).environment;
       } catch (const InputError&) {  // from an older program; try the next one
       }
   return {};
 }
 
-void add_circumstances(const Sweep& sweep, const std::filesystem::path& folder, ExperimentResult& result) {
-  result.how.environment = environment_of(sweep, folder);
-  result.how.limits = {.seconds = sweep.limit_seconds, .memory_bytes = static_cast<std::uint64_t>(sweep.limit_bytes)};
-  for (const SweepCase& one : sweep.cases) result.how.runs = std::max(result.how.runs, looks_of(one.wanted).front());
+void add_circumstances(const Sweep& sweep, ExperimentResult& result) {
+  result.how.environment = environment_of(sweep);
+  for (const CaseRuns& one : sweep.cases) {
+    result.how.limits = one.asked.limits;
+    result.how.runs = std::max(result.how.runs, looks_of(one.asked.repetitions).front());
+  }
   result.how.command = "ccdt sweep sweep.json -o .";
 }
 
@@ -67,12 +68,12 @@ void add_fit_findings(const ResultTable& fits, std::vector<std::string>& finding
   constexpr const char* says = ": the time grows with the number of tetrahedra to the power ";
   std::map<std::string, std::vector<double>> exponents;
   for (const auto& row : fits.rows) {
-    const auto& slope = std::get<bench::Estimate>(results::cell(fits, row, "exponent"));
-    exponents[results::text_in(fits, row, "mesher")].push_back(slope.value);
+    const auto& slope = std::get<bench::Estimate>(cell(fits, row, "exponent"));
+    exponents[text_in(fits, row, "mesher")].push_back(slope.value);
     if (fits.rows.size() > most_single_fits) continue;
     std::vector<std::string> of;
-    for (const results::Column& column : fits.columns)
-      if (std::string text = results::text_in(fits, row, column.name); !text.empty()) of.push_back(std::move(text));
+    for (const Column& column : fits.columns)
+      if (std::string text = text_in(fits, row, column.name); !text.empty()) of.push_back(std::move(text));
     findings.push_back(bench::joined(of) + says + bench::with_interval(slope) + ".");
   }
   if (fits.rows.size() <= most_single_fits) return;
@@ -85,12 +86,11 @@ void add_fit_findings(const ResultTable& fits, std::vector<std::string>& finding
 
 void add_pair_findings(const ResultTable& pairs, std::vector<std::string>& findings) {
   for (const auto& row : pairs.rows) {
-    const auto* ratio = std::get_if<bench::Estimate>(&results::cell(pairs, row, "ratio"));
+    const auto* ratio = std::get_if<bench::Estimate>(&cell(pairs, row, "ratio"));
     if (ratio == nullptr) continue;
-    findings.push_back(results::text_in(pairs, row, "first") + " takes " + bench::with_interval(*ratio) +
-                       " times as long as " + results::text_in(pairs, row, "second") + " (median of " +
-                       with_separators(static_cast<std::uint64_t>(results::number_in(pairs, row, "both"))) +
-                       " pairs).");
+    findings.push_back(text_in(pairs, row, "first") + " takes " + bench::with_interval(*ratio) + " times as long as " +
+                       text_in(pairs, row, "second") + " (median of " +
+                       with_separators(static_cast<std::uint64_t>(number_in(pairs, row, "both"))) + " pairs).");
   }
 }
 
@@ -105,8 +105,8 @@ void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentRes
   if (wrong > 0) result.problems.push_back(counted(wrong, "mesh") + " of ccdt failed the verification");
   if (crashed > 0) result.problems.push_back("ccdt crashed in " + counted(crashed, "case"));
   std::size_t different = 0;
-  const ResultTable& same = *results::find_table(result, "same_mesh");
-  for (const auto& row : same.rows) different += results::text_in(same, row, "same") == "no";
+  const ResultTable& same = *find_table(result, "same_mesh");
+  for (const auto& row : same.rows) different += text_in(same, row, "same") == "no";
   if (different > 0)
     result.problems.push_back(share(different, same.rows.size()) + " groups of strategies give different meshes");
   else if (!same.rows.empty())
@@ -117,7 +117,7 @@ void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentRes
     result.problems.push_back(counted(sweep.broken_records, "file") +
                               " in runs are not records; they count as missing");
   std::set<std::string_view> machines;
-  for (const SweepCase& one : sweep.cases)
+  for (const CaseRuns& one : sweep.cases)
     for (const NumberedRun& run : one.runs) machines.insert(text_of(run.values, "cpu"));
   machines.erase("");
   if (machines.size() > 1) {
@@ -129,10 +129,10 @@ void judge(const Sweep& sweep, std::span<const CaseSummary> cases, ExperimentRes
 
 }  // namespace
 
-ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& folder) {
+ExperimentResult sweep_result(const Sweep& sweep) {
   const std::vector<CaseSummary> cases = summarize_cases(sweep);
   ExperimentResult result{.name = sweep_name, .title = "Sweep " + sweep.name};
-  add_circumstances(sweep, folder, result);
+  add_circumstances(sweep, result);
   ScalingTables scaling = scaling_tables(sweep, cases);
   PairTables pairs = pair_tables(sweep, cases);
   result.tables = {cases_table(sweep, cases),  failures_table(cases),      std::move(scaling.fits),
@@ -140,8 +140,8 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
                    solved_table(sweep, cases), std::move(scaling.points),  std::move(scaling.lines),
                    std::move(pairs.pairs),     std::move(pairs.diagonals)};
   add_case_findings(cases, result);
-  add_pair_findings(*results::find_table(result, "pairs_summary"), result.findings);
-  add_fit_findings(*results::find_table(result, "scaling"), result.findings);
+  add_pair_findings(*find_table(result, "pairs_summary"), result.findings);
+  add_fit_findings(*find_table(result, "scaling"), result.findings);
   judge(sweep, cases, result);
   result.definitions = {
       "A case is one mesher on one input with one set of options.",
@@ -157,4 +157,4 @@ ExperimentResult sweep_result(const Sweep& sweep, const std::filesystem::path& f
   return result;
 }
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/results/case_summary.h"
 #include "bench/results/result_table.h"
-#include "bench/sweep_results/case_summary.h"
+#include "bench/results/row_columns.h"
 
-namespace ccdt::sweep_results {
-
-using results::ResultTable;
+namespace ccdt::results {
 
 /// \name The tables of a sweep. Tables that do not apply have no rows.
 /// @{
@@ -46,11 +45,17 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
 ResultTable pareto_table(const Sweep& sweep, std::span<const CaseSummary> cases);
 /// @}
 
-/// The columns that identify a case: input, model, edge length, mesher, options; and the cells of a case.
-std::vector<results::Column> label_columns(const Sweep& sweep);
-std::vector<results::Cell> label_cells(const CaseSummary& summary);
+/// The columns that identify a case: input, model, edge length, mesher, options.
+RowColumns<CaseSummary> label_columns(const Sweep& sweep);
+
+/// A table without rows that has these columns first.
+ResultTable labeled_table(const Sweep& sweep, std::string name, std::string title, std::vector<Column> more,
+                          bool is_data = false);
+
+/// Appends a row to such a table.
+void add_row(ResultTable& table, std::vector<std::string> runs, std::vector<Cell> labels, std::vector<Cell> more);
 
 /// The name of an option's column in all tables: "face_protection".
 std::string option_column(const std::string& option);
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results

@@ -1,4 +1,4 @@
-#include "bench/sweep_results/case_summary.h"
+#include "bench/results/case_summary.h"
 
 #include <algorithm>
 #include <cctype>
@@ -10,7 +10,7 @@
 #include "bench/run/median_interval.h"
 #include "bench/run/numbers.h"
 
-namespace ccdt::sweep_results {
+namespace ccdt::results {
 namespace {
 
 /// Records of older programs contain only the status.
@@ -35,18 +35,18 @@ void add_times(CaseSummary& summary) {
     summary.peak_bytes = std::max(summary.peak_bytes, number_of(*run, "peak_rss_bytes").value_or(0));
   }
   if (samples.empty()) return;
-  summary.seconds = bench::median_estimate(samples, bench::looks_of(summary.of->wanted));
+  summary.seconds = bench::median_estimate(samples, bench::looks_of(summary.of->asked.repetitions));
   if (!summary.seconds->has_interval()) return;
-  const double wanted = summary.of->wanted.until;
+  const double wanted = summary.of->asked.repetitions.until;
   const double most = wanted > 0 ? std::min(wanted, widest_spread) : widest_spread;
   const double spread = bench::relative_spread(*summary.seconds);
   if (spread > most) summary.spread = "spread too wide: " + bench::rounded(100 * spread, 2) + "%";
 }
 
 void summarize(CaseSummary& summary) {
-  const SweepCase& asked = *summary.of;
+  const CaseRuns& of = *summary.of;
   const NumberedRun* first = nullptr;
-  for (const NumberedRun& run : asked.runs) {
+  for (const NumberedRun& run : of.runs) {
     if (text_of(run.values, "status") != "ok") {
       summary.run = &run.values;
       summary.status = text_of(run.values, "status");
@@ -57,7 +57,7 @@ void summarize(CaseSummary& summary) {
       return;
     }
     if (first == nullptr) first = &run;
-    if (run.number < asked.wanted.warm_up) continue;
+    if (run.number < of.asked.repetitions.warm_up) continue;
     summary.counted.push_back(&run.values);
     summary.runs.push_back(run.file);
   }
@@ -73,7 +73,7 @@ std::vector<std::size_t> varying_options(const Sweep& sweep) {
   std::vector<std::size_t> varying;
   for (std::size_t option = 0; option < sweep.options.size(); ++option) {
     std::map<std::string, std::set<std::string>> values;
-    for (const SweepCase& one : sweep.cases) values[one.mesher].insert(one.options[option]);
+    for (const CaseRuns& one : sweep.cases) values[one.mesher].insert(one.values[option]);
     if (std::ranges::any_of(values, [](const auto& of_mesher) { return of_mesher.second.size() > 1; }))
       varying.push_back(option);
   }
@@ -84,10 +84,10 @@ std::vector<std::size_t> varying_options(const Sweep& sweep) {
 constexpr std::size_t most_in_legend = 8;
 
 /// The mesher of a case and some of its options.
-std::string series_of(const Sweep& sweep, const SweepCase& one, std::span<const std::size_t> options) {
+std::string series_of(const Sweep& sweep, const CaseRuns& one, std::span<const std::size_t> options) {
   std::string series = one.mesher;
   for (const std::size_t option : options)
-    if (const std::string& value = one.options[option]; !value.empty())
+    if (const std::string& value = one.values[option]; !value.empty())
       series += " " + option_words(sweep.options[option], value);
   return series;
 }
@@ -95,7 +95,7 @@ std::string series_of(const Sweep& sweep, const SweepCase& one, std::span<const 
 /// As many options as charts can show.
 std::span<const std::size_t> options_of_legend(const Sweep& sweep, std::span<const std::size_t> options) {
   std::set<std::string> series;
-  for (const SweepCase& one : sweep.cases) series.insert(series_of(sweep, one, options));
+  for (const CaseRuns& one : sweep.cases) series.insert(series_of(sweep, one, options));
   if (series.size() <= most_in_legend || options.empty()) return options;
   return options_of_legend(sweep, options.first(options.size() - 1));
 }
@@ -124,4 +124,4 @@ std::string_view text_of(const CaseSummary& summary, RunField field) {
   return summary.is_run() ? text_of(*summary.run, field) : std::string_view();
 }
 
-}  // namespace ccdt::sweep_results
+}  // namespace ccdt::results
