@@ -115,13 +115,9 @@ std::vector<Quantity> quantities_of(const Fig8Row& row) {
 }
 
 /// The growth of a quantity in a series.
-struct Fit {
+struct SeriesFit : Fit {
   Series series;
-  Quantity quantity;
-  Growth growth = {};
-  bench::LineFit line = {};
-  std::string not_judged = {};  ///< why
-  double least = 0, most = 0;   ///< size
+  Quantity of;
 };
 
 /// An end of the straight line through the points.
@@ -130,7 +126,7 @@ struct LineEnd {
   double vertices, seconds;
 };
 
-std::vector<std::string> runs_of(const Fit& fit) {
+std::vector<std::string> runs_of(const SeriesFit& fit) {
   return all_runs_of(fit.series);
 }
 std::vector<std::string> runs_of(const LineEnd& end) {
@@ -152,25 +148,23 @@ const Fig8Row& first_point(const Row& row) {
   return row.series.front();
 }
 
-bool is_time(const Fit& fit) {
-  return fit.quantity.kind == of_time;
+bool is_time(const Quantity& quantity) {
+  return quantity.kind == of_time;
 }
 
 /// The columns of fits of times or of work, whose exponents change with the machine or do not.
-RowColumns<Fit> fit_columns(Column (*exponent_column)(std::string, std::string, std::string)) {
-  return series_columns<Fit>(
-      first_point,
-      {{label_column("quantity", "of"), [](const Fit& fit) { return fit.quantity.name; }},
-       {label_column("over"), [](const Fit& fit) { return std::string(fit.quantity.over); }},
-       {figure_column("sizes"), [](const Fit& fit) { return std::uint64_t{fit.growth.sizes}; }},
-       {figure_column("decades"), [](const Fit& fit) { return fit.growth.decades; }},
-       {exponent_column("exponent", "", ""), [](const Fit& fit) { return fit.growth.power.slope; }},
-       {exponent_column("scatter", "", ""), [](const Fit& fit) { return fit.growth.scatter; }},
-       {exponent_column("per_unit", "slope per unit", ""),
-        [](const Fit& fit) { return is_time(fit) ? 1e6 * fit.line.slope.value : fit.line.slope.value; }},
-       {note_column("better", "n or n log n"), [](const Fit& fit) { return words_of(fit.growth.better); }},
-       {label_column("judged"), [](const Fit& fit) { return std::string(fit.not_judged.empty() ? "yes" : "no"); }},
-       {note_column("why_not", "why it is not judged"), &Fit::not_judged}});
+RowColumns<SeriesFit> fit_columns(Column (*exponent_column)(std::string, std::string, std::string)) {
+  RowColumns<SeriesFit> columns = series_columns<SeriesFit>(
+      first_point, {{label_column("quantity", "of"), &SeriesFit::quantity},
+                    {label_column("over"), [](const SeriesFit& fit) { return std::string(fit.of.over); }}});
+  append(columns, growth_columns(exponent_column));
+  append(columns,
+         RowColumns<SeriesFit>{
+             {exponent_column("per_unit", "slope per unit", ""),
+              [](const SeriesFit& fit) { return (is_time(fit.of) ? 1e6 : 1) * fit.growth.line.slope.value; }},
+             {note_column("better", "n or n log n"), [](const Fit& fit) { return words_of(fit.growth.better); }}});
+  append(columns, verdict_columns());
+  return columns;
 }
 
 const RowColumns<Fig8Row> point_columns =
@@ -186,27 +180,19 @@ const RowColumns<LineEnd> line_columns = series_columns<LineEnd>(
     first_point,
     {{figure_column("vertices"), &LineEnd::vertices}, {time_column("seconds", "", "s"), &LineEnd::seconds}});
 
-/// None with fewer than three points that are not zero.
-void add_fit(Series series, const Quantity& quantity, std::vector<Fit>& fits) {
+void add_fit(Series series, const Quantity& quantity, std::vector<SeriesFit>& fits) {
   std::vector<double> sizes, values;
   for (const Fig8Row& row : series) {
     if (!row.ok() || row.measured.counted.empty()) continue;
-    const double value = quantity.of(row.measured);
-    const auto size = static_cast<double>(row.measured.first.counts.*quantity.size);
-    if (value <= 0 || size <= 1) continue;
-    sizes.push_back(size);
-    values.push_back(value);
+    sizes.push_back(static_cast<double>(row.measured.first.counts.*quantity.size));
+    values.push_back(quantity.of(row.measured));
   }
-  if (sizes.size() < 3 || std::ranges::min(sizes) == std::ranges::max(sizes)) return;
-  Fit fit{series, quantity, growth_of(sizes, values), bench::fit_line(sizes, values)};
-  fit.not_judged = why_not_judged(fit.growth, is_time(fit) ? rule_for_times : rule_for_work);
-  fit.least = std::ranges::min(sizes), fit.most = std::ranges::max(sizes);
-  fits.push_back(std::move(fit));
+  std::optional<Fit> fit = fit_of(quantity.name, sizes, values, is_time(quantity) ? rule_for_times : rule_for_work);
+  if (fit) fits.push_back({*std::move(fit), series, quantity});
 }
 
-std::string finding_of(const Fit& fit) {
-  const std::string who =
-      fit.series.front().model + ", " + fit.series.front().strategy + ", " + fit.quantity.name + ": ";
+std::string finding_of(const SeriesFit& fit) {
+  const std::string who = fit.series.front().model + ", " + fit.series.front().strategy + ", " + fit.quantity + ": ";
   return who + "the exponent is " + with_interval(fit.growth.power.slope) + ": " +
          choose(is_linear(fit.growth.power.slope), "linear", "undecided, a bound is within the interval",
                 "not linear") +
@@ -280,23 +266,22 @@ void plan_model(const ExperimentOptions& options, const PaperModel& model, std::
 
 ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
   ExperimentResult result{.definitions = definitions};
-  std::vector<Fit> times, work;
+  std::vector<SeriesFit> times, work;
   std::vector<LineEnd> lines;
   for (const Series series : neighbors(
            rows, [](const Fig8Row&a, const Fig8Row&b) { return a.model == b.model && a.strategy == b.strategy; })) {
     const std::size_t before = times.size();
     for (const Quantity& quantity : quantities_of(series.front()))
-      add_fit(series, quantity, quantity.kind == of_time ? times : work);
+      add_fit(series, quantity, is_time(quantity) ? times : work);
     if (times.size() == before) continue;
-    const Fit& fit = times[before];
-    for (const double vertices : {fit.least, fit.most})
-      lines.push_back({series, vertices, fit.line.intercept + vertices * fit.line.slope.value});
+    const Growth& growth = times[before].growth;
+    for (const double vertices : {growth.least, growth.most})
+      lines.push_back({series, vertices, growth.line.intercept + vertices * growth.line.slope.value});
   }
-  for (const std::vector<Fit>* fits : {&work, &times}) {
-    const auto judged = [](const Fit& fit) { return fit.not_judged.empty(); };
-    for (const Fit& fit : *fits)
-      if (judged(fit)) result.findings.push_back(finding_of(fit));
-    const auto others = std::ranges::count_if(*fits, std::not_fn(judged));
+  for (const std::vector<SeriesFit>* fits : {&work, &times}) {
+    for (const SeriesFit& fit : *fits)
+      if (fit.is_judged()) result.findings.push_back(finding_of(fit));
+    const auto others = std::ranges::count_if(*fits, std::not_fn(&Fit::is_judged));
     if (others > 0)
       result.findings.push_back(with_separators(static_cast<std::uint64_t>(others)) + " fits of " +
                                 std::string(fits == &work ? "work" : "times") +
