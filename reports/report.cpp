@@ -189,7 +189,7 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
   Report report;
   report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization: measurements";
   add_experiments(folder, charts, report);
-  const bool has_sweep = std::filesystem::exists(folder / results::sweep_file);
+  const bool has_sweep = std::filesystem::exists(sweep::sweep_file(folder));
   if (std::ranges::all_of(report.sections, &ReportSection::is_missing)) {
     if (!has_sweep)
       throw InputError("this folder contains neither an experiment nor a sweep" + unusable_files(folder, report),

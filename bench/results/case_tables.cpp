@@ -118,8 +118,8 @@ ResultTable same_mesh_table(const Sweep& sweep, std::span<const CaseSummary> cas
     for (std::size_t i = 0; i < sweep.options.size(); ++i)  // a row stands for all values of its strategies
       if (std::ranges::find(strategies, sweep.options[i]) != strategies.end())
         of_all[of_all.size() - sweep.options.size() + i] = Cell();
-    add_row(table, std::move(runs), std::move(of_all),
-            cells(std::uint64_t{group.size()}, std::uint64_t{meshes.size()}, meshes.size() == 1));
+    add_labeled_row(table, std::move(runs), std::move(of_all),
+                    cells(std::uint64_t{group.size()}, std::uint64_t{meshes.size()}, meshes.size() == 1));
   }
   return table;
 }

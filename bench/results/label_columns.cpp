@@ -44,7 +44,8 @@ ResultTable labeled_table(const Sweep& sweep, std::string name, std::string titl
   return table;
 }
 
-void add_row(ResultTable& table, std::vector<std::string> runs, std::vector<Cell> labels, std::vector<Cell> more) {
+void add_labeled_row(ResultTable& table, std::vector<std::string> runs, std::vector<Cell> labels,
+                     std::vector<Cell> more) {
   std::ranges::move(more, std::back_inserter(labels));
   table.rows.push_back({std::move(labels), std::move(runs)});
 }

@@ -59,9 +59,9 @@ void add_pair(const RowColumns<CaseSummary>& labels, const CaseSummary& first, c
               ResultTable& pairs) {
   std::vector<std::string> runs = first.runs;
   runs.insert(runs.end(), second.runs.begin(), second.runs.end());
-  add_row(pairs, std::move(runs), cells_of(labels, first),
-          cells(first.of->mesher + " / " + second.of->mesher, first.legend, *first.seconds, *second.seconds,
-                first.seconds->value / second.seconds->value));
+  add_labeled_row(pairs, std::move(runs), cells_of(labels, first),
+                  cells(first.of->mesher + " / " + second.of->mesher, first.legend, *first.seconds, *second.seconds,
+                        first.seconds->value / second.seconds->value));
 }
 
 }  // namespace

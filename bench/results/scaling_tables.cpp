@@ -83,19 +83,20 @@ ScalingTables scaling_tables(const Sweep& sweep, std::span<const CaseSummary> ca
     const auto [low, high] = std::ranges::minmax(family.sizes);
     std::vector<std::string> runs;
     for (const CaseSummary* one : family.cases) {
-      add_row(tables.points, one->runs, cells_of(labels, *one),
-              cells(name, facet, series, legend, *number_of(*one, "tetrahedra"), *one->seconds));
+      add_labeled_row(tables.points, one->runs, cells_of(labels, *one),
+                      cells(name, facet, series, legend, *number_of(*one, "tetrahedra"), *one->seconds));
       runs.insert(runs.end(), one->runs.begin(), one->runs.end());
     }
     if (high < least_span * low) continue;
     const bench::LineFit fit = bench::fit_power(family.sizes, family.seconds);
     const auto largest = static_cast<std::size_t>(std::ranges::max_element(family.sizes) - family.sizes.begin());
-    add_row(
+    add_labeled_row(
         tables.fits, std::move(runs), common,
         cells(std::uint64_t{family.sizes.size()}, low, high, fit.slope, fit.r_squared, high / family.seconds[largest]));
     for (const double size : {low, high})
-      add_row(tables.lines, {}, common,
-              cells(name, facet, series, legend, size, std::exp(fit.intercept + fit.slope.value * std::log(size))));
+      add_labeled_row(
+          tables.lines, {}, common,
+          cells(name, facet, series, legend, size, std::exp(fit.intercept + fit.slope.value * std::log(size))));
   }
   return tables;
 }

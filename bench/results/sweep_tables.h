@@ -53,7 +53,8 @@ ResultTable labeled_table(const Sweep& sweep, std::string name, std::string titl
                           bool is_data = false);
 
 /// Appends a row to such a table.
-void add_row(ResultTable& table, std::vector<std::string> runs, std::vector<Cell> labels, std::vector<Cell> more);
+void add_labeled_row(ResultTable& table, std::vector<std::string> runs, std::vector<Cell> labels,
+                     std::vector<Cell> more);
 
 /// The name of an option's column in all tables: "face_protection".
 std::string option_column(const std::string& option);
