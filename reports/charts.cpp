@@ -15,12 +15,8 @@
 namespace ccdt::reports {
 namespace {
 
-using results::Cell;
-using results::Column;
-using results::ColumnKind;
-using results::ExperimentResult;
-using results::ResultRow;
-using results::ResultTable;
+using results::Cell, results::Column, results::ColumnKind, results::ExperimentResult, results::ResultRow,
+    results::ResultTable;
 
 /// The configuration shared by all charts; the page and the program that draws figures have it.
 constexpr const char* shared_file = "config.json";

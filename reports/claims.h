@@ -15,11 +15,7 @@ using bench::joined;
 using bench::rounded;
 using bench::with_separators;
 using experiments::BoundTest;
-using results::Cell;
-using results::ExperimentResult;
-using results::KeptMesh;
-using results::ResultRow;
-using results::ResultTable;
+using results::Cell, results::ExperimentResult, results::KeptMesh, results::ResultRow, results::ResultTable;
 
 /// The result of testing a claim of the paper.
 enum class ClaimVerdict {

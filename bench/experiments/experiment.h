@@ -24,51 +24,16 @@
 
 namespace ccdt::experiments {
 
-using bench::BoundTest;
-using bench::Estimate;
-using bench::is_at_least;
-using bench::is_at_most;
-using bench::joined;
-using bench::rounded;
-using bench::RunRecord;
-using bench::with_interval;
-using bench::with_separators;
-using results::add_row;
-using results::all_runs_of;
-using results::as_cell;
-using results::CaseRow;
-using results::cdt_seconds;
-using results::Cell;
-using results::cell_if;
-using results::cells;
-using results::Circumstances;
-using results::column;
-using results::Column;
-using results::ColumnKind;
-using results::count_column;
-using results::ExperimentResult;
-using results::figure_column;
-using results::KeptMesh;
-using results::label_column;
-using results::measure_rows;
-using results::neighbors;
-using results::note_column;
-using results::reason_column;
-using results::ResultRow;
-using results::ResultTable;
-using results::RowColumn;
-using results::RowColumns;
-using results::rows_with;
-using results::RowView;
-using results::RowViews;
-using results::run_column;
-using results::seconds_column;
-using results::stage_seconds;
-using results::status_column;
-using results::table_of;
-using results::table_of_rows;
-using results::time_column;
-using results::whole_seconds;
+using bench::BoundTest, bench::Estimate, bench::is_at_least, bench::is_at_most, bench::joined, bench::rounded,
+    bench::RunRecord, bench::with_interval, bench::with_separators;
+using results::add_row, results::all_runs_of, results::as_cell, results::CaseRow, results::cdt_seconds, results::Cell,
+    results::cell_if, results::cells, results::Circumstances, results::column, results::Column, results::ColumnKind,
+    results::count_column, results::ExperimentResult, results::failure, results::figure_column, results::keep_mesh,
+    results::KeptMesh, results::label_column, results::measure_rows, results::mesh_of, results::neighbors,
+    results::note_column, results::reason_column, results::ResultRow, results::ResultTable, results::RowColumn,
+    results::RowColumns, results::rows_with, results::RowView, results::RowViews, results::run_column,
+    results::seconds_column, results::stage_seconds, results::status_column, results::table_of, results::table_of_rows,
+    results::time_column, results::whole_seconds;
 
 /// The options of every experiment of `ccdt reproduce`.
 struct ExperimentOptions {
@@ -155,8 +120,8 @@ std::vector<std::string> words_of(const std::string& line);
 /// "20 of 1,000"
 std::string share_words(std::uint64_t part, std::uint64_t whole);
 
-template <class Items>
-void append(std::vector<typename Items::value_type>& to, const Items& more) {
+template <class Item, class Items>
+void append(std::vector<Item>& to, const Items& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
