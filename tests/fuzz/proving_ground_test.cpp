@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/tests/sanitized.h"
-#include "engine/tests/thin_plates.h"
+#include "engine/tests/shared/sanitized.h"
+#include "engine/tests/shared/thin_plates.h"
 #include "tests/fuzz/prove.h"
 #include "tests/fuzz/scene.h"
 #include "tests/fuzz/structured_plc.h"

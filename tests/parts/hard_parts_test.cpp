@@ -7,8 +7,8 @@
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
 #include "engine/plc/bent_facets.h"
-#include "engine/tests/plc_test_solids.h"
-#include "engine/tests/real_parts.h"
+#include "engine/tests/shared/plc_test_solids.h"
+#include "engine/tests/shared/real_parts.h"
 #include "tests/fuzz/prove.h"
 #include "tests/fuzz/structured_plc.h"
 
