@@ -60,7 +60,7 @@ int height_coefficient(const std::array<Point3, 5>& points, std::size_t i) {
   std::array<const Point3*, 4> others;
   for (std::size_t j = 0, k = 0; j < 5; ++j)
     if (j != i) others[k++] = &points[j];
-  const int minor = -orient3d(*others[0], *others[1], *others[2], *others[3]);
+  const int minor = -reference::orient3d(*others[0], *others[1], *others[2], *others[3]);
   return i % 2 == 0 ? minor : -minor;
 }
 
