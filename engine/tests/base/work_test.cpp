@@ -200,13 +200,13 @@ facets.edges_flipped 19
 facets.triangles_visited 490
 facets.peak_bytes 1728
 lattice.octree_nodes 137
-lattice.box_tree_nodes 104
+lattice.box_tree_nodes 121
 lattice.octree_nodes_created 137
 lattice.rays_cast 15
 lattice.ray_triangles 176
 lattice.sites_tested 72
 lattice.obstacles_tested 2338
-lattice.peak_bytes 23356
+lattice.peak_bytes 24508
 delaunay.orient3d_filter_failures 60
 delaunay.insphere_filter_failures 45
 delaunay.narrow_evaluations 105
@@ -393,8 +393,8 @@ TEST(WorkOfSmallInputs, RemeshedSurface) {
 remesh.orient3d_filter_failures 12
 remesh.narrow_evaluations 12
 remesh.exact_evaluations 12
-remesh.box_tree_nodes 17755
-remesh.box_pairs 8092
+remesh.box_tree_nodes 11942
+remesh.box_pairs 5404
 remesh.edges_flipped 12
 remesh.moves_tried 810
 remesh.vertices_moved 810

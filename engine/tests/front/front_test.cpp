@@ -175,7 +175,7 @@ TEST(Front, LooksAtFewFacesInAStackOfThinPlates) {
   options.lattice = Lattice::none;
   options.refine_surface = true;
   const MeshResult result = mesh_plc(stack_on_a_beam(), options);
-  EXPECT_GT(result.counts.front_tetrahedra, 2000u);
+  EXPECT_GT(result.counts.front_tetrahedra, 500u);
   EXPECT_LT(result.costs[Stage::front].work.visibility_tests, 25 * result.counts.front_tetrahedra);
 }
 
