@@ -454,8 +454,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   for (const StageCost& cost : run.costs.stages) run.costs.mesh_seconds += cost.seconds;
-  return {std::move(t.mesh), std::move(t.counts), std::move(run.costs), t.plc.largest_rounding,
-          t.plc.idle_holes.size()};
+  return {std::move(t.mesh), std::move(t.counts), run.costs, t.plc.largest_rounding, t.plc.idle_holes.size()};
 }
 
 }  // namespace

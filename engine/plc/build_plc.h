@@ -45,10 +45,10 @@ struct Examined {
 
 /// The one examination of an input: are its triangles different, and does nothing overlap?
 ///
-/// \param gathered  Triangles that are known to be faces of one simplicial complex have nothing in common but corners
+/// \param parts     Triangles that are known to be faces of one simplicial complex have nothing in common but corners
 ///                  and edges, and no vertex is on one. So they are not tested with each other.
 /// \param limit     of each list of overlaps
-Examined examine_parts(UncheckedPlc gathered, const PlcOptions& options, std::size_t limit, Examiner& examiner);
+Examined examine_parts(UncheckedPlc parts, const PlcOptions& options, std::size_t limit, Examiner& examiner);
 
 /// Finds the regions of parts that do not overlap.
 ///

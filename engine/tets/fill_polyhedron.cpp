@@ -81,7 +81,8 @@ double PolyhedronFiller::quality_on(const CornerTriangle& t, Corner apex) const 
 bool PolyhedronFiller::join_to_vertex() {
   double best_quality = least_;
   std::optional<Corner> best;
-  for (Corner v = 0; v < vertices_.size(); ++v) {
+  const auto corners = static_cast<Corner>(vertices_.size());
+  for (Corner v = 0; v < corners; ++v) {
     const double quality = quality_from(v, best_quality);
     if (quality > best_quality && keeps_all_faces(v)) best_quality = quality, best = v;
   }
@@ -139,7 +140,8 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
 /// Is there a vertex that makes a good tetrahedron with a face? The least quality is often that of the best one on a
 /// face that must stay. Then no search succeeds.
 bool PolyhedronFiller::has_apex(const CornerTriangle& t) const {
-  for (Corner v = 0; v < vertices_.size(); ++v)
+  const auto corners = static_cast<Corner>(vertices_.size());
+  for (Corner v = 0; v < corners; ++v)
     if (!has(t, v) && quality_on(t, v) > least_) return true;
   return false;
 }
