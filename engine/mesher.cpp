@@ -46,7 +46,7 @@ struct Run {
   }
 };
 
-BackgroundSizes in_grid_units(BackgroundSizes background, const numbers::DyadicGrid& grid) {
+BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
   for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
   for (double& size : background.sizes) size /= grid.unit;
   return background;
@@ -343,8 +343,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   for (const StageCost& cost : run.costs.stages) run.costs.mesh_seconds += cost.seconds;
-  return {std::move(t.mesh), std::move(t.counts), std::move(run.costs), t.plc.largest_rounding,
-          t.plc.idle_holes.size()};
+  return {std::move(t.mesh), std::move(t.counts), run.costs, t.plc.largest_rounding, t.plc.idle_holes.size()};
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
 #include "reports/charts.h"
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
-#include "bench/json.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json.h"
+#include "bench/run/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 #include "reports/result_text.h"
@@ -15,12 +16,8 @@
 namespace ccdt::reports {
 namespace {
 
-using results::Cell;
-using results::Column;
-using results::ColumnKind;
-using results::ExperimentResult;
-using results::ResultRow;
-using results::ResultTable;
+using results::Cell, results::Column, results::ColumnKind, results::ExperimentResult, results::ResultRow,
+    results::ResultTable;
 
 /// The configuration shared by all charts; the page and the program that draws figures have it.
 constexpr const char* shared_file = "config.json";

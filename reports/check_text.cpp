@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "bench/json.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json.h"
+#include "bench/run/numbers.h"
 #include "engine/base/digits.h"
 
 namespace ccdt::reports {
 namespace {
 
 using bench::Json;
+using bench::with_separators;
 using repair::Diagnosis;
 using repair::Fault;
 using repair::RepairStep;
-using results::with_separators;
 
 std::string plural(std::uint64_t count, const std::string& one) {
   return with_separators(count) + " " + one + (count == 1 ? "" : "s");
@@ -117,7 +117,7 @@ std::string in_few_words(const Diagnosis& diagnosis) {
   const auto errors = static_cast<std::uint64_t>(std::ranges::count(diagnosis.faults, true, &Fault::is_error));
   if (errors > 0) return errors == 1 ? "1 kind of error" : with_separators(errors) + " kinds of errors";
   return plural(diagnosis.facets, "facet") + ", " + plural(diagnosis.regions, "region") + ", volume " +
-         results::rounded(diagnosis.volume, 6);
+         bench::rounded(diagnosis.volume, 6);
 }
 
 std::string to_json(const CheckReport& report) {

@@ -11,15 +11,11 @@
 
 namespace ccdt::reports {
 
+using bench::joined;
+using bench::rounded;
+using bench::with_separators;
 using experiments::BoundTest;
-using results::Cell;
-using results::ExperimentResult;
-using results::joined;
-using results::KeptMesh;
-using results::ResultRow;
-using results::ResultTable;
-using results::rounded;
-using results::with_separators;
+using results::Cell, results::ExperimentResult, results::KeptMesh, results::ResultRow, results::ResultTable;
 
 /// The result of testing a claim of the paper.
 enum class ClaimVerdict {

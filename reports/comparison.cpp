@@ -10,13 +10,8 @@
 namespace ccdt::reports {
 namespace {
 
-using results::add_row;
-using results::Column;
-using results::ColumnKind;
-using results::figure_column;
-using results::label_column;
-using results::table_of;
-using results::time_column;
+using results::add_row, results::Column, results::ColumnKind, results::figure_column, results::label_column,
+    results::table_of, results::time_column;
 
 /// Columns that look like labels but state results, so they are compared.
 bool is_outcome(const Column& column) {

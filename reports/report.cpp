@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/experiments/registry.h"
-#include "bench/sweep_results/sweep_result.h"
+#include "bench/results/sweep_result.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::reports {
@@ -19,13 +19,13 @@ std::string repeating(std::vector<std::string> command) {
   return baselines::command_line(command);
 }
 
-RunLine run_line(const sweep_results::RunValues& run) {
+RunLine run_line(const results::RunValues& run) {
   return {repeating(run.command), std::string(text_of(run, "status")), std::string(text_of(run, "mesher")),
           std::string(text_of(run, "version")), run.settings};
 }
 
 RunLine run_line(const std::filesystem::path& file) {
-  const auto run = sweep_results::read_run_values(file);
+  const auto run = results::read_run_values(file);
   return run ? run_line(*run) : RunLine{"", "missing: " + file.string() + " cannot be read", "", "", {}};
 }
 
@@ -105,12 +105,12 @@ void add_claims(Report& report) {
 }
 
 void add_sweep(const std::filesystem::path& folder, std::span<const ReportChart> charts, Report& report) {
-  const sweep_results::Sweep sweep = sweep_results::read_sweep(folder);
+  const results::Sweep sweep = results::read_sweep(folder);
   ReportSection section;
-  section.result = sweep_results::sweep_result(sweep, folder);
+  section.result = results::sweep_result(sweep);
   section.charts = charts_for(section.result, charts);
-  for (const sweep_results::SweepCase& one : sweep.cases)
-    for (const sweep_results::NumberedRun& run : one.runs) report.runs[run.file] = run_line(run.values);
+  for (const results::CaseRuns& one : sweep.cases)
+    for (const results::NumberedRun& run : one.runs) report.runs[run.file] = run_line(run.values);
   if (report.sections.empty()) report.title = section.result.title;
   report.has_raw_runs = false;
   report.more_files = {{"runs.csv", runs_as_csv(sweep)}, {"runs.jsonl", runs_as_json_lines(sweep)}};
@@ -189,7 +189,7 @@ Report read_report(const std::filesystem::path& folder, std::span<const ReportCh
   Report report;
   report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization: measurements";
   add_experiments(folder, charts, report);
-  const bool has_sweep = std::filesystem::exists(folder / sweep_results::sweep_file);
+  const bool has_sweep = std::filesystem::exists(sweep::sweep_file(folder));
   if (std::ranges::all_of(report.sections, &ReportSection::is_missing)) {
     if (!has_sweep)
       throw InputError("this folder contains neither an experiment nor a sweep" + unusable_files(folder, report),

@@ -7,20 +7,20 @@
 #include <optional>
 #include <utility>
 
-#include "bench/json.h"
-#include "bench/median_interval.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json.h"
+#include "bench/run/median_interval.h"
+#include "bench/run/numbers.h"
 #include "engine/base/digits.h"
 
 namespace ccdt::reports {
 namespace {
 
+using bench::rounded;
+using bench::with_interval;
+using bench::with_separators;
 using results::Cell;
 using results::Column;
 using results::ResultRow;
-using results::rounded;
-using results::with_interval;
-using results::with_separators;
 
 /// The width of a UTF-8 text in columns of a terminal: continuation bytes take none.
 std::size_t width(const std::string& text) {
@@ -389,8 +389,8 @@ std::string summarize(const bench::RunRecord& r) {
                      " Steiner, " + with_separators(c.interior_vertices) + " interior)\n";
   text += refinement(c) + segments(c.segments) + protection(c) + lattice_cores(c);
   text += "tetrahedra  " + with_separators(c.tetrahedra) + ", volume " + rounded(r.quality.volume, 6) + "\n";
-  text += "seconds     " + rounded(all_seconds(r)) + stages(r) + ", peak memory " +
-          results::mebibytes(r.peak_rss_bytes) + "\n";
+  text += "seconds     " + rounded(all_seconds(r)) + stages(r) + ", peak memory " + bench::mebibytes(r.peak_rss_bytes) +
+          "\n";
   text += quality_lines(r.quality);
   text += improvement(c.improve);
   for (const std::string& note : r.notes) text += "note        " + note + "\n";

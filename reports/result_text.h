@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/results/experiment_result.h"
-#include "bench/run_record.h"
+#include "bench/run/run_record.h"
 #include "bench/verify/verify.h"
 
 namespace ccdt::reports {

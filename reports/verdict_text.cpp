@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "reports/result_text.h"
 
 namespace ccdt::reports {
@@ -47,14 +47,14 @@ std::vector<const JudgedFigure*> figures_in(const Part& part, const Verdict& ver
 std::string figure_text(double value) {
   if (!std::isfinite(value)) return "infinite";
   if (value == std::floor(value) && std::abs(value) < 1e15)
-    return (value < 0 ? "-" : "") + results::with_separators(static_cast<std::uint64_t>(std::abs(value)));
-  return results::rounded(value, 6);
+    return (value < 0 ? "-" : "") + bench::with_separators(static_cast<std::uint64_t>(std::abs(value)));
+  return bench::rounded(value, 6);
 }
 
 std::string seconds_text(double seconds) {
   static constexpr std::pair<double, const char*> units[] = {{1, " s"}, {1e-3, " ms"}, {1e-6, " us"}, {1e-9, " ns"}};
   for (const auto& [size, name] : units)
-    if (seconds >= size || size == 1e-9) return results::rounded(seconds / size, 4) + name;
+    if (seconds >= size || size == 1e-9) return bench::rounded(seconds / size, 4) + name;
   return "";
 }
 
@@ -65,7 +65,7 @@ std::string side_text(const std::optional<double>& number, const std::string& te
 }
 
 std::string percent(double ratio) {
-  return (ratio >= 1 ? "+" : "") + results::rounded(100 * (ratio - 1), 3) + "%";
+  return (ratio >= 1 ? "+" : "") + bench::rounded(100 * (ratio - 1), 3) + "%";
 }
 
 /// The change: "+7%", or for sampled figures "+7.01% [+5.2%, +8.9%]".
@@ -77,7 +77,7 @@ std::string change_text(const JudgedFigure& figure) {
 
 std::string count_text(const Verdict& verdict, const char* what, const std::function<bool(const JudgedFigure&)>& has) {
   const auto count = static_cast<std::uint64_t>(std::ranges::count_if(verdict.figures, has));
-  return count == 0 ? "" : ", " + results::with_separators(count) + " " + what;
+  return count == 0 ? "" : ", " + bench::with_separators(count) + " " + what;
 }
 
 /// "passed: 120 figures, 1 better or new; judged: exact, time; not judged: instructions (nothing was measured)"
@@ -86,7 +86,7 @@ std::string first_line(const Verdict& verdict) {
     return [judgment](const JudgedFigure& figure) { return figure.is_gated && figure.verdict == judgment; };
   };
   const auto gated = static_cast<std::uint64_t>(std::ranges::count_if(verdict.figures, &JudgedFigure::is_gated));
-  std::string text = std::string(name_of(verdict.verdict)) + ": " + results::with_separators(gated) +
+  std::string text = std::string(name_of(verdict.verdict)) + ": " + bench::with_separators(gated) +
                      (gated == 1 ? " figure" : " figures");
   text += count_text(verdict, "worse", is(Judgment::worse)) +
           count_text(verdict, "undecided", is(Judgment::undecided)) +
@@ -105,8 +105,8 @@ std::string layers_line(const Verdict& verdict) {
       judged.emplace_back(name_of(layer.layer));
     else
       others.push_back(std::string(name_of(layer.layer)) + " (" + layer.why + ")");
-  std::string text = "judged: " + (judged.empty() ? "nothing" : results::joined(judged));
-  if (!others.empty()) text += "; not judged: " + results::joined(others);
+  std::string text = "judged: " + (judged.empty() ? "nothing" : bench::joined(judged));
+  if (!others.empty()) text += "; not judged: " + bench::joined(others);
   if (verdict.rules.layers_are_chosen && !others.empty()) text += ", though asked for";
   return text;
 }
@@ -143,11 +143,10 @@ std::string judgment_text(const JudgedFigure& figure) {
 
 std::vector<std::string> row_of(const JudgedFigure& figure) {
   std::string ratio, interval;
-  if (figure.ratio && std::isfinite(*figure.ratio)) ratio = results::rounded(*figure.ratio, 4);
+  if (figure.ratio && std::isfinite(*figure.ratio)) ratio = bench::rounded(*figure.ratio, 4);
   if (figure.interval)
-    interval =
-        "[" + results::rounded(figure.interval->low, 4) + ", " + results::rounded(figure.interval->high, 4) + "]";
-  const std::string found = figure.smallest_found                ? results::percent(*figure.smallest_found)
+    interval = "[" + bench::rounded(figure.interval->low, 4) + ", " + bench::rounded(figure.interval->high, 4) + "]";
+  const std::string found = figure.smallest_found                ? bench::percent(*figure.smallest_found)
                             : figure.layer == gate::Layer::exact ? "any"
                                                                  : "";
   return {figure.case_name,
@@ -167,7 +166,7 @@ std::string counts_text(const std::vector<const JudgedFigure*>& figures) {
     if (const std::string judgment = judgment_text(*figure); judgment != "passed") ++counts[judgment];
   std::vector<std::string> words;
   for (const auto& [judgment, count] : counts) words.push_back(std::to_string(count) + " " + judgment);
-  return words.empty() ? "passed" : results::joined(words);
+  return words.empty() ? "passed" : bench::joined(words);
 }
 
 /// All cases, the worst first: a row for each time, counter and total, and one for all other figures of a layer.
@@ -185,7 +184,7 @@ TextTable all_cases(const Verdict& verdict) {
     if (all.empty()) continue;
     const std::string count = std::to_string(all.mapped().size()) + (all.mapped().size() == 1 ? " figure" : " figures");
     table.push_back({figure.case_name, count + ", " + std::string(name_of(figure.layer)), "", "", "", "",
-                     figure.layer == gate::Layer::exact ? "any" : results::percent(verdict.rules.instructions.relative),
+                     figure.layer == gate::Layer::exact ? "any" : bench::percent(verdict.rules.instructions.relative),
                      counts_text(all.mapped())});
   }
   return table;
@@ -197,9 +196,9 @@ std::string limits_line(const Verdict& verdict) {
   const bool has_times =
       std::ranges::any_of(verdict.figures, [](const JudgedFigure& f) { return f.limit.has_value(); });
   if (!has_times) return "";
-  return "a time is worse if it is slower by more than " + results::percent(time.relative) +
-         ", and passes if a slowdown by more than " + results::percent(time.relative + time.largest_noise) +
-         " is excluded, with " + results::percent(time.confidence) +
+  return "a time is worse if it is slower by more than " + bench::percent(time.relative) +
+         ", and passes if a slowdown by more than " + bench::percent(time.relative + time.largest_noise) +
+         " is excluded, with " + bench::percent(time.confidence) +
          " confidence; a case whose clock, noise or builds allow less has a higher limit";
 }
 
@@ -215,7 +214,7 @@ std::string markdown_table(const std::vector<const JudgedFigure*>& figures, std:
 }
 
 std::string the_rest(std::size_t count, std::size_t shown) {
-  return count <= shown ? "" : "and " + results::with_separators(count - shown) + " more: see verdict.json";
+  return count <= shown ? "" : "and " + bench::with_separators(count - shown) + " more: see verdict.json";
 }
 
 std::vector<std::string> notes_of(const Verdict& verdict) {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "bench/sweep/chunks.h"
 #include "bench/sweep/estimate.h"
 #include "bench/sweep/slurm.h"
@@ -47,11 +47,11 @@ int threads_of(const sweep::SweepCase& c) {
 }
 
 std::vector<sweep::MissingCase> missing_cases(const SweepCommand& command, const PreparedSweep& sweep) {
-  const std::vector<cases::MeasuredCase> loaded = load_cases(command, sweep);
+  const std::vector<bench::MeasuredCase> loaded = load_cases(command, sweep);
   const std::vector<sweep::CaseEstimate> estimates = sweep::estimate_cases(sweep.cases, loaded);
   std::vector<sweep::MissingCase> missing;
   for (std::size_t i = 0; i < loaded.size(); ++i)
-    if (cases::needs_run(loaded[i]))
+    if (bench::needs_run(loaded[i]))
       missing.push_back({.id = loaded[i].id,
                          .group = loaded[i].asked.group,
                          .seconds = estimates[i].missing_seconds(),
@@ -69,7 +69,7 @@ std::vector<std::string> options_of_tasks(const SweepCommand& command) {
 }
 
 std::string count_of(std::size_t count, const char* one, const char* many) {
-  return results::with_separators(count) + " " + (count == 1 ? one : many);
+  return bench::with_separators(count) + " " + (count == 1 ? one : many);
 }
 
 void print_submission(const sweep::Submission& submission) {
@@ -102,9 +102,9 @@ ExitCode run_chunk(const SweepCommand& command) {
   const sweep::SweepDocument document = sweep::read_sweep(sweep.folder);
   const sweep::Chunk chunk = sweep::read_chunk(sweep.folder, command.cluster.chunk);
   sweep.seed = document.seed;
-  sweep.identities = cases::accepted_identities(
-      sweep::sweep_file(sweep.folder), cases::identity_of(meshers_of(document.cases), own_program()),
-      command.mixed ? cases::OtherIdentity::mixed : cases::OtherIdentity::refuse);
+  sweep.identities = bench::accepted_identities(
+      sweep::sweep_file(sweep.folder), bench::identity_of(meshers_of(document.cases), own_program()),
+      command.mixed ? bench::OtherIdentity::mixed : bench::OtherIdentity::refuse);
   sweep.cases = cases_of(chunk, document.cases);
   const sweep::ChunkLock lock(sweep.folder, chunk.number);
   print_results(run_cases(command, sweep, sweep.cases));
@@ -135,12 +135,12 @@ void prepare_for_cluster(const SweepCommand& command, const PreparedSweep& sweep
 }
 
 std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& folder,
-                                               std::span<const cases::MeasuredCase> cases) {
+                                               std::span<const bench::MeasuredCase> cases) {
   const std::vector<sweep::Chunk> chunks = sweep::read_chunks(folder);
   if (chunks.empty()) return {};
   std::set<std::string> missing;
-  for (const cases::MeasuredCase& measured : cases)
-    if (cases::needs_run(measured)) missing.insert(measured.id);
+  for (const bench::MeasuredCase& measured : cases)
+    if (bench::needs_run(measured)) missing.insert(measured.id);
   try {
     return sweep::count_chunks(chunks, sweep::ask_slurm(folder), missing);
   } catch (const Error& error) {  // the records can be counted without Slurm
@@ -157,7 +157,7 @@ bench::Json to_json(const sweep::ChunkCounts& counts) {
 }
 
 std::string in_words(const sweep::ChunkCounts& counts) {
-  const auto text = [](int count) { return results::with_separators(static_cast<std::size_t>(count)); };
+  const auto text = [](int count) { return bench::with_separators(static_cast<std::size_t>(count)); };
   return "chunks: " + text(counts.finished) + " finished, " + text(counts.running) + " running, " +
          text(counts.queued) + " queued, " + text(counts.missing) + " missing\n";
 }

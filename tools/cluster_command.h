@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "bench/cases/case.h"
-#include "bench/json.h"
+#include "bench/run/case.h"
+#include "bench/run/json.h"
 #include "bench/sweep/slurm.h"
 #include "tools/sweep_command.h"
 
@@ -32,7 +32,7 @@ void prepare_for_cluster(const SweepCommand& command, const PreparedSweep& sweep
 ///
 /// \param cases  as the records stand
 std::optional<sweep::ChunkCounts> chunk_status(const std::filesystem::path& folder,
-                                               std::span<const cases::MeasuredCase> cases);
+                                               std::span<const bench::MeasuredCase> cases);
 
 bench::Json to_json(const sweep::ChunkCounts& counts);
 

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "baselines/stop.h"
-#include "bench/environment.h"
 #include "bench/gate/baseline.h"
 #include "bench/gate/benchmark_target.h"
 #include "bench/gate/calibration.h"
@@ -20,7 +19,8 @@
 #include "bench/gate/measure_times.h"
 #include "bench/gate/program_counts.h"
 #include "bench/gate/timed_targets.h"
-#include "bench/results/numbers.h"
+#include "bench/run/environment.h"
+#include "bench/run/numbers.h"
 #include "bench/sweep/sweep_document.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
@@ -87,7 +87,7 @@ MeasuredProgram prepare(const GateCommand& command, const std::filesystem::path&
   return measured;
 }
 
-std::vector<cases::Case> cases_of(const MeasuredProgram& measured) {
+std::vector<bench::Case> cases_of(const MeasuredProgram& measured) {
   return sweep::asked_of(measured.sweep.cases);
 }
 
@@ -96,18 +96,18 @@ void append(std::vector<gate::JudgedFigure> figures, gate::Verdict& verdict) {
 }
 
 /// The cases that did not fail.
-std::vector<cases::Case> good_cases(const MeasuredProgram& measured, const gate::Verdict& verdict) {
+std::vector<bench::Case> good_cases(const MeasuredProgram& measured, const gate::Verdict& verdict) {
   std::set<std::string> failed;
   for (const gate::JudgedFigure& figure : verdict.figures)
     if (figure.name == "status" && (figure.head_text != "ok" || figure.base_text != "ok"))
       failed.insert(figure.case_name);
-  std::vector<cases::Case> good = cases_of(measured);
-  std::erase_if(good, [&](const cases::Case& one) { return failed.contains(one.name); });
+  std::vector<bench::Case> good = cases_of(measured);
+  std::erase_if(good, [&](const bench::Case& one) { return failed.contains(one.name); });
   return good;
 }
 
 gate::Recording count_instructions(const std::filesystem::path& program, const gate::Rules& rules,
-                                   const std::vector<cases::Case>& cases, const std::filesystem::path& folder) {
+                                   const std::vector<bench::Case>& cases, const std::filesystem::path& folder) {
   gate::Recording counts;
   GateProgress progress;
   gate::add_instructions(program, cases, rules, folder, counts, progress.counted());
@@ -121,7 +121,7 @@ bool has_instructions(const gate::Recording& recording) {
 
 /// The recorded counts if they are valid on this machine; otherwise those of the base program, counted now.
 gate::Recording instruction_base(const GateCommand& command, const gate::Rules& rules, const gate::Recording& recorded,
-                                 const gate::Recording& head, const std::vector<cases::Case>& cases,
+                                 const gate::Recording& head, const std::vector<bench::Case>& cases,
                                  gate::Verdict& verdict) {
   const bool holds = has_instructions(recorded) && gate::other_conditions(recorded, head).empty();
   if (holds || command.base.empty()) return recorded;
@@ -151,7 +151,7 @@ void compare_instructions(const GateCommand& command, const gate::Rules& rules, 
                           MeasuredProgram& head, gate::Verdict& verdict) {
   if (!rules.layers.contains(Layer::instructions)) return;
   try {
-    const std::vector<cases::Case> cases = good_cases(head, verdict);
+    const std::vector<bench::Case> cases = good_cases(head, verdict);
     const gate::Recording counts =
         count_instructions(path_of(programs_of(command).head), rules, cases, head.sweep.folder);
     const gate::Recording base = instruction_base(command, rules, recorded, counts, cases, verdict);
@@ -255,8 +255,8 @@ std::set<std::string> compare_times(const GateCommand& command, const gate::Rule
 }
 
 /// The cases whose times are judged.
-std::vector<cases::Case> timed_cases(std::vector<cases::Case> all, const gate::Rules& rules) {
-  std::erase_if(all, [&](const cases::Case& one) { return !gate::matches(rules.time.cases, one.name); });
+std::vector<bench::Case> timed_cases(std::vector<bench::Case> all, const gate::Rules& rules) {
+  std::erase_if(all, [&](const bench::Case& one) { return !gate::matches(rules.time.cases, one.name); });
   return all;
 }
 
@@ -376,7 +376,7 @@ gate::Calibration measure_calibration(const GateCommand& command, const gate::Ru
   const gate::SampleSet samples = measure_samples(command, all_pairs, programs, targets, nullptr);
   gate::Calibration calibration = calibration_of(samples, rules);
   calibration.program = command.base;
-  calibration.identity = cases::identity_of({"ccdt"}, programs.base.front());
+  calibration.identity = bench::identity_of({"ccdt"}, programs.base.front());
   gate::write_calibration(calibration, std::filesystem::path(command.folder) / "calibration.json");
   return calibration;
 }

@@ -9,10 +9,10 @@
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
 #include "baselines/stop.h"
-#include "bench/fingerprint.h"
-#include "bench/results/numbers.h"
-#include "bench/run_record.h"
-#include "bench/surface_limit.h"
+#include "bench/run/fingerprint.h"
+#include "bench/run/numbers.h"
+#include "bench/run/run_record.h"
+#include "bench/run/surface_limit.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
@@ -120,7 +120,7 @@ void check_edge_length(const MeshCommand& command, const InputPlc& input, MeshOp
   const double longest = plc::longest_edge(input);
   if (options.edge_length <= longest) return;
   record.notes.push_back("--edge-length " + digits(options.edge_length) +
-                         " is longer than the whole part: " + results::rounded(longest) +
+                         " is longer than the whole part: " + bench::rounded(longest) +
                          ", the diagonal of its bounding box, was used instead; check the unit");
   options.edge_length = longest;
 }
@@ -165,18 +165,17 @@ InputPlc remeshed(const MeshCommand& command, const InputPlc& input, double edge
   InputPlc surface = surface::remesh_surface(
       input, {.edge_length = edge_length, .sharp_angle = command.sharp_angle, .flatness = command.options.flatness},
       progress);
-  record.notes.push_back("the surface was remeshed from " + results::with_separators(input.facet_count()) + " to " +
-                         results::with_separators(surface.facet_count()) + " facets");
+  record.notes.push_back("the surface was remeshed from " + bench::with_separators(input.facet_count()) + " to " +
+                         bench::with_separators(surface.facet_count()) + " facets");
   if (!command.surface_output.empty()) io::write_plc(surface, command.surface_output);
   return surface;
 }
 
 std::string words_of(const bench::SurfaceLimit& limit) {
-  return "the surface limits quality: " + results::with_separators(limit.at_bad_triangles) + " of " +
-         results::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
-         results::rounded(bench::SurfaceLimit::bad_r) + " touch surface triangles with an angle below " +
-         results::rounded(bench::SurfaceLimit::bad_angle) +
-         " degrees (smallest: " + results::rounded(limit.least_angle) +
+  return "the surface limits quality: " + bench::with_separators(limit.at_bad_triangles) + " of " +
+         bench::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
+         bench::rounded(bench::SurfaceLimit::bad_r) + " touch surface triangles with an angle below " +
+         bench::rounded(bench::SurfaceLimit::bad_angle) + " degrees (smallest: " + bench::rounded(limit.least_angle) +
          "); --surface refine puts even triangles on flat facets, --surface remesh on bent surfaces, too";
 }
 
@@ -208,7 +207,7 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
       record.notes.push_back(words_of(limit));
   if (result.idle_holes > 0)
     record.notes.push_back("hole points that are outside of everything that the facets enclose were not used: " +
-                           results::with_separators(result.idle_holes));
+                           bench::with_separators(result.idle_holes));
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
 }
 

@@ -1,6 +1,6 @@
 #include <memory>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "engine/io/plc_files.h"
 #include "models/solids.h"
 #include "tools/commands.h"
@@ -29,8 +29,8 @@ void run(const ModelCommand& command) {
   check_can_be_written(command.output);
   const plc::InputPlc plc = models::make_solid(command.name, command.edge_length);
   io::write_plc(plc, command.output);
-  print(command.output + ": " + results::with_separators(plc.vertices.size()) + " vertices, " +
-        results::with_separators(plc.facet_count()) + " facets\n");
+  print(command.output + ": " + bench::with_separators(plc.vertices.size()) + " vertices, " +
+        bench::with_separators(plc.facet_count()) + " facets\n");
 }
 
 }  // namespace

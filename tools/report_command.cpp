@@ -1,8 +1,9 @@
+#include <algorithm>
 #include <memory>
 #include <sstream>
 #include <utility>
 
-#include "bench/sweep_results/sweep_result.h"
+#include "bench/results/sweep_result.h"
 #include "reports/report.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -96,7 +97,7 @@ void make_report(const std::filesystem::path& folder) {
   const reports::Report report = reports::read_report(folder, reports::read_charts(share_folder() / "charts"));
   print(verdicts(report));
   for (const reports::ReportSection& section : report.sections)
-    if (section.result.name == sweep_results::sweep_name) print(reports::to_terminal(section.result, most_rows));
+    if (section.result.name == results::sweep_name) print(reports::to_terminal(section.result, most_rows));
   for (const reports::ReportSection& section : report.sections)
     if (section.is_missing)
       print("\nMissing: " + section.result.title + "\n  " + section.reason + "\n  " + section.result.how.command +
@@ -113,7 +114,7 @@ void add_report_command(CLI::App& app, ExitCode& exit_code) {
       ->expected(1, 2)
       ->check(CLI::ExistingDirectory);
   verb->add_option("-o,--output", command->output, "folder for a comparison; default: comparison in the second DIR");
-  verb->footer(report_footer + in_lines(sweep_results::run_columns_help(), 116) + examples);
+  verb->footer(report_footer + in_lines(results::run_columns_help(), 116) + examples);
   verb->callback([command, &exit_code] {
     if (command->folders.size() == 1 && !command->output.empty())
       throw CLI::ValidationError("--output", "use it with two folders only: a report is written to its own folder");

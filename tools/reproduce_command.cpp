@@ -8,10 +8,10 @@
 
 #include "baselines/mesher.h"
 #include "baselines/stop.h"
-#include "bench/cases/identity.h"
 #include "bench/experiments/registry.h"
-#include "bench/json.h"
-#include "bench/median_interval.h"
+#include "bench/run/identity.h"
+#include "bench/run/json.h"
+#include "bench/run/median_interval.h"
 #include "engine/io/files.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
@@ -133,17 +133,17 @@ std::string command_of(const experiments::KnownExperiment& known, const Reproduc
 
 /// The machines and programs whose records count in the folder; also writes them there.
 /// \throw InputError  the records come from another program or machine, and no option says what to do
-std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
+std::vector<bench::Identity> identities_of(const ReproduceCommand& command) {
   std::vector<std::string> meshers;
   for (const baselines::Mesher& mesher : baselines::meshers()) meshers.push_back(mesher.name);
   std::ranges::copy_if(command.beside, std::back_inserter(meshers), baselines::is_mesher_description);
   const auto file = command.options.folder / identity_file;
-  const cases::OtherIdentity policy = command.refresh ? cases::OtherIdentity::refresh
-                                      : command.mixed ? cases::OtherIdentity::mixed
-                                                      : cases::OtherIdentity::refuse;
-  auto accepted = cases::accepted_identities(file, cases::identity_of(meshers, command.options.program), policy);
+  const bench::OtherIdentity policy = command.refresh ? bench::OtherIdentity::refresh
+                                      : command.mixed ? bench::OtherIdentity::mixed
+                                                      : bench::OtherIdentity::refuse;
+  auto accepted = bench::accepted_identities(file, bench::identity_of(meshers, command.options.program), policy);
   bench::Json json = {{"schema", "ccdt.identity/1"}};
-  json.update(cases::identities_json(accepted));
+  json.update(bench::identities_json(accepted));
   bench::write_json(json, file);
   return accepted;
 }
@@ -151,7 +151,7 @@ std::vector<cases::Identity> identities_of(const ReproduceCommand& command) {
 /// Measures with a progress bar, writes the result to the folder and prints it.
 /// \return  did ccdt itself succeed everywhere?
 bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& command,
-               const std::vector<cases::Identity>& identities) {
+               const std::vector<bench::Identity>& identities) {
   command.options.command = command_of(known, command);
   const results::ExperimentResult result = [&] {
     ProgressBar bar;
@@ -159,7 +159,7 @@ bool reproduce(const experiments::KnownExperiment& known, ReproduceCommand& comm
       if (baselines::stop_requested()) throw baselines::Stopped();
       report(draw, what, done, total);
     };
-    cases::Runner runner({.program = command.options.program,
+    bench::Runner runner({.program = command.options.program,
                           .folder = command.options.folder,
                           .identities = identities,
                           .retry_failed = command.retry_failed,
@@ -183,7 +183,7 @@ bool run(ReproduceCommand& command) {
   const FolderLock lock(options.folder);
   take_files(command);
   check_can_be_written(options.folder / "report.json");
-  const std::vector<cases::Identity> identities = identities_of(command);
+  const std::vector<bench::Identity> identities = identities_of(command);
   bool is_good = true;
   for (const experiments::KnownExperiment* known : chosen(command))
     is_good = reproduce(*known, command, identities) && is_good;

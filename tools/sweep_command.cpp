@@ -10,7 +10,7 @@
 
 #include "baselines/mesher.h"
 #include "baselines/stop.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "bench/sweep/estimate.h"
 #include "bench/sweep/status.h"
 #include "bench/sweep/sweep_document.h"
@@ -45,16 +45,16 @@ sweep::SweepSpec spec_of(const SweepCommand& command, const sweep::MeshOptionRul
   return spec;
 }
 
-cases::OtherIdentity policy_of(const SweepCommand& command) {
-  if (command.refresh) return cases::OtherIdentity::refresh;
-  return command.mixed ? cases::OtherIdentity::mixed : cases::OtherIdentity::refuse;
+bench::OtherIdentity policy_of(const SweepCommand& command) {
+  if (command.refresh) return bench::OtherIdentity::refresh;
+  return command.mixed ? bench::OtherIdentity::mixed : bench::OtherIdentity::refuse;
 }
 
 std::filesystem::path program_of(const SweepCommand& command) {
   return command.program.empty() ? own_program() : command.program;
 }
 
-cases::RunnerSettings settings_of(const SweepCommand& command, const PreparedSweep& sweep) {
+bench::RunnerSettings settings_of(const SweepCommand& command, const PreparedSweep& sweep) {
   return {.program = program_of(command),
           .folder = sweep.folder,
           .identities = sweep.identities,
@@ -64,8 +64,8 @@ cases::RunnerSettings settings_of(const SweepCommand& command, const PreparedSwe
 }
 
 /// Gives each case the id that its records carry. Equal inputs make equal cases, of which one remains.
-std::vector<cases::MeasuredCase> identify(cases::Runner& runner, std::vector<sweep::SweepCase>& cases) {
-  std::vector<cases::MeasuredCase> loaded = runner.load(sweep::asked_of(cases)), measured;
+std::vector<bench::MeasuredCase> identify(bench::Runner& runner, std::vector<sweep::SweepCase>& cases) {
+  std::vector<bench::MeasuredCase> loaded = runner.load(sweep::asked_of(cases)), measured;
   std::vector<sweep::SweepCase> different;
   std::set<std::string> known;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -81,7 +81,7 @@ std::vector<cases::MeasuredCase> identify(cases::Runner& runner, std::vector<swe
 
 void print_names(const char* what, const std::vector<std::string>& names) {
   if (names.empty()) return;
-  print(results::with_separators(names.size()) + " " + what + ":\n");
+  print(bench::with_separators(names.size()) + " " + what + ":\n");
   for (std::size_t i = 0; i < std::min(most_names, names.size()); ++i) print("  " + names[i] + "\n");
   if (names.size() > most_names) print("  ...\n");
 }
@@ -98,7 +98,7 @@ void print_changes(const sweep::SweepChanges& changes) {
 /// A sweep as described by its folder; nothing is written.
 struct KnownSweep {
   PreparedSweep sweep;
-  std::vector<cases::MeasuredCase> measured;
+  std::vector<bench::MeasuredCase> measured;
 };
 
 KnownSweep look_at(const SweepCommand& command) {
@@ -109,8 +109,8 @@ KnownSweep look_at(const SweepCommand& command) {
   if (std::filesystem::exists(sweep::sweep_file(known.sweep.folder)) && !command.refresh)
     known.sweep.identities = sweep::read_sweep(known.sweep.folder).identities;
   else
-    known.sweep.identities = {cases::identity_of(spec.meshers, program_of(command))};
-  cases::Runner runner(settings_of(command, known.sweep));
+    known.sweep.identities = {bench::identity_of(spec.meshers, program_of(command))};
+  bench::Runner runner(settings_of(command, known.sweep));
   known.measured = identify(runner, known.sweep.cases);
   return known;
 }
@@ -160,7 +160,7 @@ ExitCode run(const SweepCommand& command) {
 }
 
 /// Is the failure a fault of ccdt itself?
-bool is_fault(const cases::MeasuredCase& measured) {
+bool is_fault(const bench::MeasuredCase& measured) {
   using baselines::FailureKind;
   const auto kind = measured.first.kind;
   return measured.failed() && measured.asked.mesher == "ccdt" &&
@@ -198,11 +198,11 @@ PreparedSweep prepare_sweep(const SweepCommand& command) {
   sweep.seed = spec.seed;
   sweep.cases = sweep::expand(spec, sweep.folder, rules);
   sweep.identities =
-      cases::accepted_identities(file, cases::identity_of(spec.meshers, program_of(command)), policy_of(command));
+      bench::accepted_identities(file, bench::identity_of(spec.meshers, program_of(command)), policy_of(command));
   std::filesystem::create_directories(sweep.folder);
   ProgressBar bar;
   sweep::write_models(sweep.cases, command.refresh, bar.progress());
-  cases::Runner runner(settings_of(command, sweep));
+  bench::Runner runner(settings_of(command, sweep));
   identify(runner, sweep.cases);
   bar.erase();
   if (std::filesystem::exists(file)) print_changes(sweep::changes_since(sweep::read_sweep(sweep.folder), sweep.cases));
@@ -210,38 +210,38 @@ PreparedSweep prepare_sweep(const SweepCommand& command) {
   return sweep;
 }
 
-std::vector<cases::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep) {
-  return cases::Runner(settings_of(command, sweep)).load(sweep::asked_of(sweep.cases));
+std::vector<bench::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep) {
+  return bench::Runner(settings_of(command, sweep)).load(sweep::asked_of(sweep.cases));
 }
 
-std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
+std::vector<bench::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
                                            std::span<const sweep::SweepCase> cases) {
   ProgressBar bar;
   std::uint64_t finished = 0, all = 0;
-  cases::RunnerSettings settings = settings_of(command, sweep);
+  bench::RunnerSettings settings = settings_of(command, sweep);
   settings.progress = [&, draw = bar.progress()](std::string_view name, std::uint64_t done, std::uint64_t total) {
     finished = done;
     all = total;
     report(draw, name, done, total);
   };
   try {
-    return cases::Runner(std::move(settings)).run(sweep::asked_of(cases));
+    return bench::Runner(std::move(settings)).run(sweep::asked_of(cases));
   } catch (const baselines::Stopped&) {
     bar.erase();
-    print_error_line("stopped: " + results::with_separators(finished) + " of " + results::with_separators(all) +
+    print_error_line("stopped: " + bench::with_separators(finished) + " of " + bench::with_separators(all) +
                      " runs are finished; repeat the command to continue");
     throw;
   }
 }
 
-ExitCode print_results(std::span<const cases::MeasuredCase> cases) {
+ExitCode print_results(std::span<const bench::MeasuredCase> cases) {
   struct Ends {
     std::size_t finished = 0;
     std::map<std::string, std::size_t> failed;
   };
   std::map<std::string, Ends> by_mesher;
   bool is_good = true;
-  for (const cases::MeasuredCase& measured : cases) {
+  for (const bench::MeasuredCase& measured : cases) {
     Ends& ends = by_mesher[baselines::mesher(measured.asked.mesher).name];
     measured.failed() ? ++ends.failed[sweep::failure_of(measured)] : ++ends.finished;
     is_good = is_good && !is_fault(measured);
@@ -252,10 +252,10 @@ ExitCode print_results(std::span<const cases::MeasuredCase> cases) {
     std::vector<std::string> kinds;
     for (const auto& [kind, count] : ends.failed) {
       failed += count;
-      kinds.push_back(kind + " " + results::with_separators(count));
+      kinds.push_back(kind + " " + bench::with_separators(count));
     }
-    table.push_back({mesher, results::with_separators(ends.finished + failed), results::with_separators(ends.finished),
-                     results::joined(kinds)});
+    table.push_back({mesher, bench::with_separators(ends.finished + failed), bench::with_separators(ends.finished),
+                     bench::joined(kinds)});
   }
   print(reports::to_terminal(table));
   return is_good ? done : failed_a_check;

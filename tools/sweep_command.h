@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/runner.h"
+#include "bench/run/runner.h"
 #include "bench/sweep/expand.h"
 #include "bench/sweep/spec.h"
 #include "tools/error_words.h"
@@ -36,7 +36,7 @@ struct SweepCommand {
 struct PreparedSweep {
   std::filesystem::path folder;  ///< absolute
   std::uint64_t seed = 1;
-  std::vector<cases::Identity> identities = {};  ///< whose records count
+  std::vector<bench::Identity> identities = {};  ///< whose records count
   std::vector<sweep::SweepCase> cases = {};
 };
 
@@ -47,18 +47,18 @@ struct PreparedSweep {
 PreparedSweep prepare_sweep(const SweepCommand& command);
 
 /// The cases of a prepared sweep with their current records.
-std::vector<cases::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep);
+std::vector<bench::MeasuredCase> load_cases(const SweepCommand& command, const PreparedSweep& sweep);
 
 /// Runs those of these cases that have no record yet, with a progress bar.
 ///
 /// \throw baselines::Stopped  the user has stopped the program
 /// \throw OutputError         a record cannot be written
-std::vector<cases::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
+std::vector<bench::MeasuredCase> run_cases(const SweepCommand& command, const PreparedSweep& sweep,
                                            std::span<const sweep::SweepCase> cases);
 
 /// Prints for each mesher how its cases ended.
 /// \return  the exit code: a failure of another mesher is a result, a failure of ccdt is an error
-ExitCode print_results(std::span<const cases::MeasuredCase> cases);
+ExitCode print_results(std::span<const bench::MeasuredCase> cases);
 
 /// The options that `ccdt mesh` accepts.
 sweep::MeshOptionRules mesh_option_rules();

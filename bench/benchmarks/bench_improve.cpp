@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "bench/benchmarks/benchmark_main.h"
+#include "engine/geometry/predicates.h"
 #include "engine/improve/improve_mesh.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
-#include "engine/numbers/predicates.h"
 #include "engine/tets/cell_complex.h"
 
 namespace ccdt::benchmarks {
@@ -78,7 +78,7 @@ double least_quality(const Unimproved& u) {
   double least = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c, d] : u.mesh.tetrahedra) {
     const auto& at = u.points;
-    if (numbers::orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
+    if (orient3d(at[a], at[b], at[c], at[d]) <= 0) return 0;
     least = std::min(least, tets::cell_quality(goal, at[a], at[b], at[c], at[d]));
   }
   return least;

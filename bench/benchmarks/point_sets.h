@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
-/// The points that the benchmarks run on, in grid units (engine/numbers/grid.h); the same on every machine.
+/// The points that the benchmarks run on, in grid units (engine/geometry/grid.h); the same on every machine.
 namespace ccdt::benchmarks {
 
 /// Uniformly distributed in a cube, snapped to the quantum as the vertices of an input are.
@@ -17,7 +17,7 @@ inline std::vector<Point3> random_points(std::size_t n, std::uint64_t seed) {
   const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
   std::vector<Point3> points(n);
   for (Point3& p : points) p = {coordinate(), coordinate(), coordinate()};
-  const numbers::DyadicGrid grid = numbers::make_grid(points);
+  const DyadicGrid grid = make_grid(points);
   for (Point3& p : points) p = grid.snap(p);
   return points;
 }

@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
-#include "bench/conforming/smallest_spheres.h"
+#include "bench/experiments/conforming/smallest_spheres.h"
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/delaunay/delaunay.h"
@@ -116,22 +117,22 @@ void add_contradictions(const ConditionsRow& row, ExperimentResult& result) {
 }
 
 /// The interior vertices of the mesh of a run, in grid units: they are the last ones.
-std::vector<Point3> interior_points(const mesh::TetMesh& mesh, std::size_t count, const numbers::DyadicGrid& grid) {
+std::vector<Point3> interior_points(const mesh::TetMesh& mesh, std::size_t count, const DyadicGrid& grid) {
   std::vector<Point3> points;
   for (std::size_t v = mesh.vertices.size() - count; v < mesh.vertices.size(); ++v) {
     const Point3 p = (1 / grid.unit) * (mesh.vertices[v] - grid.origin);
-    points.push_back({numbers::round_to_unit(p.x), numbers::round_to_unit(p.y), numbers::round_to_unit(p.z)});
+    points.push_back({round_to_unit(p.x), round_to_unit(p.y), round_to_unit(p.z)});
   }
   return points;
 }
 
-void examine(const cases::Runner& runner, ConditionsRow& row) {
+void examine(const bench::Runner& runner, ConditionsRow& row) {
   if (!row.ok()) return;
   const plc::Plc plc = plc::build_plc(io::read_plc(row.measured.asked.input));
   std::vector<Point3> interior;
   if (row.lattice != Lattice::none)
     interior =
-        interior_points(cases::mesh_of(runner, row.measured), row.measured.first.counts.interior_vertices, plc.grid);
+        interior_points(results::mesh_of(runner, row.measured), row.measured.first.counts.interior_vertices, plc.grid);
   count_violations(plc, interior, row);
 }
 
@@ -164,7 +165,7 @@ ExperimentResult conditions_result(std::span<const ConditionsRow> rows) {
   return result;
 }
 
-ExperimentResult measure_conditions(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_conditions(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<SurfaceFile> files = write_solids(options, "conditions", coarsenings);
   append(files, parts_that_come_along(options));
   append(files, input_files(options));

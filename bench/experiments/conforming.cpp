@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <array>
+#include <functional>
 
-#include "bench/conforming/conforming_delaunay.h"
+#include "bench/experiments/conforming/conforming_delaunay.h"
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
 #include "engine/base/errors.h"
@@ -151,7 +152,7 @@ ExperimentResult conforming_result(std::span<const ConformingRow> rows) {
   return result;
 }
 
-ExperimentResult measure_conforming(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_conforming(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<SurfaceFile> files = solids_and_flattened(options);
   append(files, parts_that_come_along(options));
   append(files, input_files(options));

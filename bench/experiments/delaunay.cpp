@@ -301,7 +301,7 @@ void evaluate_delaunay(const std::string& benchmark_json, ExperimentResult& resu
   }
 }
 
-ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_delaunay(const ExperimentOptions& options, bench::Runner& runner) {
   ExperimentResult result;
   const auto file = options.folder / output_file, program = find_bench_delaunay(options.program);
   check_something_is_measured(wanted_sets(options).size(), "delaunay");

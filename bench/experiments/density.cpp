@@ -74,26 +74,22 @@ double tetrahedra_of(const DensityRow& row) {
 }
 
 /// The growth of a count in a series.
-struct DensityFit {
+struct DensityFit : Fit {
   Series series;
-  FrontWork work;
-  Growth growth = {};
-  std::string not_judged = {};  ///< why
 };
 std::vector<std::string> runs_of(const DensityFit& fit) {
   return all_runs_of(fit.series);
 }
 
-const RowColumns<DensityFit> fit_columns = {
-    {label_column("density"), [](const DensityFit& fit) { return fit.series.front().density; }},
-    {label_column("locator"), [](const DensityFit& fit) { return fit.series.front().locator; }},
-    {label_column("quantity", "of"), [](const DensityFit& fit) { return std::string(fit.work.name); }},
-    {figure_column("sizes"), [](const DensityFit& fit) { return std::uint64_t{fit.growth.sizes}; }},
-    {figure_column("decades"), [](const DensityFit& fit) { return fit.growth.decades; }},
-    {figure_column("exponent"), [](const DensityFit& fit) { return fit.growth.power.slope; }},
-    {figure_column("scatter"), [](const DensityFit& fit) { return fit.growth.scatter; }},
-    {label_column("judged"), [](const DensityFit& fit) { return std::string(fit.not_judged.empty() ? "yes" : "no"); }},
-    {note_column("why_not", "why it is not judged"), &DensityFit::not_judged}};
+RowColumns<DensityFit> density_fit_columns() {
+  RowColumns<DensityFit> columns = {
+      {label_column("density"), [](const DensityFit& fit) { return fit.series.front().density; }},
+      {label_column("locator"), [](const DensityFit& fit) { return fit.series.front().locator; }},
+      {label_column("quantity", "of"), &DensityFit::quantity}};
+  append(columns, growth_columns(figure_column));
+  append(columns, verdict_columns());
+  return columns;
+}
 
 /// A count per tetrahedron of the front; empty if the run failed.
 RowColumn<DensityRow> per_tetrahedron(const char* name, const char* title, const FrontWork& work) {
@@ -114,25 +110,23 @@ const RowColumns<DensityRow> point_columns = {
     per_tetrahedron("grid_cells", "grid cells, per tetrahedron", front_works[2]),
     reason_column()};
 
-/// None with fewer than three sizes at which something was counted.
 void add_fit(Series series, const FrontWork& work, std::vector<DensityFit>& fits) {
   std::vector<double> sizes, counts;
   for (const DensityRow& row : series) {
-    if (!row.ok() || tetrahedra_of(row) <= 1 || work_of(row, work) == 0) continue;
+    if (!row.ok()) continue;
     sizes.push_back(tetrahedra_of(row));
     counts.push_back(work_of(row, work));
   }
-  if (sizes.size() < 3 || std::ranges::min(sizes) == std::ranges::max(sizes)) return;
-  DensityFit fit{series, work, growth_of(sizes, counts)};
   const bool is_graded = series.front().density == "graded";
-  fit.not_judged = why_not_judged(fit.growth, is_graded ? rule_for_steep_work : rule_for_work);
-  if (!work.is_judged) fit.not_judged = "shown beside the others";
-  fits.push_back(std::move(fit));
+  std::optional<Fit> fit = fit_of(work.name, sizes, counts, is_graded ? rule_for_steep_work : rule_for_work);
+  if (!fit) return;
+  if (!work.is_judged) fit->not_judged = "shown beside the others";
+  fits.push_back({*std::move(fit), series});
 }
 
 std::string finding_of(const DensityFit& fit) {
   const Estimate& exponent = fit.growth.power.slope;
-  return fit.series.front().density + " density, " + fit.series.front().locator + ", " + fit.work.name +
+  return fit.series.front().density + " density, " + fit.series.front().locator + ", " + fit.quantity +
          ": the exponent is " + with_interval(exponent) + ": " +
          choose(is_at_most(exponent, 1 + linear_within), "not more than linear", "undecided", "more than linear");
 }
@@ -161,15 +155,15 @@ ExperimentResult density_result(std::span<const DensityRow> rows) {
        }))
     for (const FrontWork& work : front_works) add_fit(series, work, fits);
   for (const DensityFit& fit : fits)
-    if (fit.not_judged.empty()) result.findings.push_back(finding_of(fit));
+    if (fit.is_judged()) result.findings.push_back(finding_of(fit));
   if (result.findings.empty()) result.findings.push_back("no fit is judged: the range of sizes is too short");
-  result.tables = {table_of_rows("growth", "Growth of exact counts of the front", fit_columns, fits),
+  result.tables = {table_of_rows("growth", "Growth of exact counts of the front", density_fit_columns(), fits),
                    table_of_rows("work", "Work per tetrahedron of the front", point_columns, rows)};
   for (const DensityRow& row : rows) add_problem_of(row, result);
   return result;
 }
 
-ExperimentResult measure_density(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_density(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<DensityRow> rows;
   for (const DensitySeries& series : all_series)
     if (is_asked_for(options, series.solid)) plan_series(options, series, rows);

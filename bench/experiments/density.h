@@ -18,7 +18,7 @@ struct DensityRow : CaseRow {
 /// Is the work of the front linear only at uniform density (paper, sections 1, 4 and 6)? Exact counts of the front over
 /// the number of its tetrahedra, without the check: of a cube with even edges and one whose edges shrink 128-fold
 /// toward a corner, both by the paper's strategies, and of the second with our octree.
-ExperimentResult measure_density(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_density(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by density and locator, from the coarsest size
 ExperimentResult density_result(std::span<const DensityRow> rows);

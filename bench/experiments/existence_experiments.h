@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/experiments/experiment.h"
-#include "bench/small_plcs/small_plc.h"
-#include "bench/small_plcs/trial.h"
+#include "bench/experiments/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/trial.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt::experiments {
@@ -30,7 +30,7 @@ void add_trial(const small_plcs::Trial& trial, FamilyTrials& trials);
 /// X has a DT", in both directions on random small PLCs by exhaustive search, and compares the engine with it.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
-ExperimentResult measure_theorem1(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_theorem1(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult theorem1_result(std::span<const FamilyTrials> families);
 
 /// One input whose edges were protected in one way.
@@ -47,7 +47,7 @@ struct TerminationRow : CaseRow {
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the chosen models is part of it
-ExperimentResult measure_termination(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_termination(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult termination_result(std::span<const TerminationRow> rows);
 
 /// One input with one lattice and one rule that keeps interior points away from the surface. Its counts say how many
@@ -65,7 +65,7 @@ struct InteriorRow : CaseRow {
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the chosen models is part of it
-ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_interior_points(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
                                         std::span<const small_plcs::ExistenceTrials> trials);
 
@@ -86,7 +86,7 @@ struct ConformingRow : CaseRow {
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the chosen models is part of it
-ExperimentResult measure_conforming(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_conforming(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult conforming_result(std::span<const ConformingRow> rows);
 
 /// One input, with or without interior points, and both conditions for a Delaunay tetrahedralization that contains it.
@@ -114,7 +114,7 @@ void count_violations(const plc::Plc& plc, std::span<const Point3> interior, Con
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the chosen models is part of it
-ExperimentResult measure_conditions(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_conditions(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult conditions_result(std::span<const ConditionsRow> rows);
 
 }  // namespace ccdt::experiments

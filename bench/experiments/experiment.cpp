@@ -64,7 +64,7 @@ void check_something_is_measured(std::size_t cases, std::string_view experiment)
                      "without --models, it measures all its models");
 }
 
-cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
+bench::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
                         const std::filesystem::path& input, std::vector<std::string> words) {
   return {.name = std::move(name),
           .group = {},
@@ -75,9 +75,9 @@ cases::Case single_case(const ExperimentOptions& options, std::string name, std:
           .verify = true};
 }
 
-cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single, double until,
-                       cases::SecondsOf seconds) {
-  cases::Case timed = single;
+bench::Case timed_case(const ExperimentOptions& options, std::string group, const bench::Case& single, double until,
+                       bench::SecondsOf seconds) {
+  bench::Case timed = single;
   timed.group = std::move(group);
   timed.seconds = std::move(seconds);
   timed.repetitions = {.warm_up = 1,
@@ -88,7 +88,7 @@ cases::Case timed_case(const ExperimentOptions& options, std::string group, cons
   return timed;
 }
 
-bool is_short(const ExperimentOptions& options, const cases::MeasuredCase& first) {
+bool is_short(const ExperimentOptions& options, const bench::MeasuredCase& first) {
   return !first.failed() && options.runs * first.first.costs.mesh_seconds <= budget(options);
 }
 

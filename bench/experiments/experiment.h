@@ -10,65 +10,30 @@
 #include <vector>
 
 #include "baselines/process.h"
-#include "bench/cases/case_rows.h"
-#include "bench/cases/runner.h"
-#include "bench/median_interval.h"
+#include "bench/results/case_rows.h"
 #include "bench/results/experiment_result.h"
-#include "bench/results/numbers.h"
 #include "bench/results/result_table.h"
 #include "bench/results/row_columns.h"
 #include "bench/results/row_views.h"
-#include "bench/run_record.h"
-#include "bench/statistics.h"
+#include "bench/run/median_interval.h"
+#include "bench/run/numbers.h"
+#include "bench/run/run_record.h"
+#include "bench/run/runner.h"
+#include "bench/run/statistics.h"
 #include "engine/base/progress.h"
 
 namespace ccdt::experiments {
 
-using bench::BoundTest;
-using bench::Estimate;
-using bench::is_at_least;
-using bench::is_at_most;
-using bench::RunRecord;
-using cases::all_runs_of;
-using cases::CaseRow;
-using cases::cdt_seconds;
-using cases::count_column;
-using cases::measure_rows;
-using cases::reason_column;
-using cases::run_column;
-using cases::seconds_column;
-using cases::stage_seconds;
-using cases::status_column;
-using cases::whole_seconds;
-using results::add_row;
-using results::as_cell;
-using results::Cell;
-using results::cell_if;
-using results::cells;
-using results::Circumstances;
-using results::column;
-using results::Column;
-using results::ColumnKind;
-using results::ExperimentResult;
-using results::figure_column;
-using results::joined;
-using results::KeptMesh;
-using results::label_column;
-using results::neighbors;
-using results::note_column;
-using results::ResultRow;
-using results::ResultTable;
-using results::rounded;
-using results::RowColumn;
-using results::RowColumns;
-using results::rows_with;
-using results::RowView;
-using results::RowViews;
-using results::table_of;
-using results::table_of_rows;
-using results::time_column;
-using results::with_interval;
-using results::with_separators;
+using bench::BoundTest, bench::Estimate, bench::is_at_least, bench::is_at_most, bench::joined, bench::rounded,
+    bench::RunRecord, bench::with_interval, bench::with_separators;
+using results::add_row, results::all_runs_of, results::as_cell, results::CaseRow, results::cdt_seconds, results::Cell,
+    results::cell_if, results::cells, results::Circumstances, results::column, results::Column, results::ColumnKind,
+    results::count_column, results::ExperimentResult, results::failure, results::figure_column, results::keep_mesh,
+    results::KeptMesh, results::label_column, results::measure_rows, results::mesh_of, results::neighbors,
+    results::note_column, results::reason_column, results::ResultRow, results::ResultTable, results::RowColumn,
+    results::RowColumns, results::rows_with, results::RowView, results::RowViews, results::run_column,
+    results::seconds_column, results::stage_seconds, results::status_column, results::table_of, results::table_of_rows,
+    results::time_column, results::whole_seconds;
 
 /// The options of every experiment of `ccdt reproduce`.
 struct ExperimentOptions {
@@ -115,7 +80,7 @@ std::string choose(BoundTest test, std::string_view holds, std::string_view unde
 /// A case that is run once, because its figures matter but not its times. Its mesh is verified.
 ///
 /// \param name  for people and problems: "piston, insert"
-cases::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
+bench::Case single_case(const ExperimentOptions& options, std::string name, std::string mesher,
                         const std::filesystem::path& input, std::vector<std::string> words);
 
 /// The default half-width of a median's interval, as a share of the median.
@@ -124,11 +89,11 @@ inline constexpr double usual_precision = 0.05;
 /// The same case, repeated until some of its seconds are known with this precision.
 ///
 /// \param group  the cases with which it takes turns
-cases::Case timed_case(const ExperimentOptions& options, std::string group, const cases::Case& single,
-                       double until = usual_precision, cases::SecondsOf seconds = whole_seconds);
+bench::Case timed_case(const ExperimentOptions& options, std::string group, const bench::Case& single,
+                       double until = usual_precision, bench::SecondsOf seconds = whole_seconds);
 
 /// Can a case be timed within the budget, by the seconds of its first run? A failed one cannot.
-bool is_short(const ExperimentOptions& options, const cases::MeasuredCase& first);
+bool is_short(const ExperimentOptions& options, const bench::MeasuredCase& first);
 
 /// The same as a definition.
 std::string short_case_words(const ExperimentOptions& options);
@@ -155,8 +120,8 @@ std::vector<std::string> words_of(const std::string& line);
 /// "20 of 1,000"
 std::string share_words(std::uint64_t part, std::uint64_t whole);
 
-template <class Items>
-void append(std::vector<typename Items::value_type>& to, const Items& more) {
+template <class Item, class Items>
+void append(std::vector<Item>& to, const Items& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 

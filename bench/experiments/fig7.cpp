@@ -33,7 +33,7 @@ const RowColumns<Row> columns = {
 
 }  // namespace
 
-ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_fig7(const ExperimentOptions& options, bench::Runner& runner) {
   ExperimentOptions small = options;
   small.tetrahedra = std::min(options.tetrahedra, static_cast<double>(most_kept_tetrahedra) / 2);
   ExperimentResult result{
@@ -44,7 +44,7 @@ ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& r
   for (const PaperModel& model : paper_models) {
     if (!is_asked_for(options, model.name)) continue;
     const SurfaceFile surface = write_solid(small, "fig7", model.name, model.edge_length);
-    cases::Case asked = single_case(options, model.name, "ccdt", surface.file, {});
+    bench::Case asked = single_case(options, model.name, "ccdt", surface.file, {});
     asked.mesh_ending = ".vtu";
     rows.push_back({{{asked}}, surface});
   }

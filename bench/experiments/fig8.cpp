@@ -31,7 +31,7 @@ constexpr double small_scale = 50000, most_at_small_scales = 1.5, coarsest_at_sm
 /// A way to mesh, and its largest mesh of a model, in the wanted number of tetrahedra.
 struct Strategy {
   std::string label, mesher, words;
-  cases::SecondsOf seconds = whole_seconds;
+  bench::SecondsOf seconds = whole_seconds;
   double most = 0;
   double SizeRange::*most_of_model = &SizeRange::most;
 };
@@ -74,17 +74,17 @@ using Series = std::span<const Fig8Row>;
 struct Quantity {
   std::string name;
   const char *kind, *over;  ///< "time" or "work"; "vertices" or "front tetrahedra"
-  std::function<double(const cases::MeasuredCase&)> of;
+  std::function<double(const bench::MeasuredCase&)> of;
   std::uint64_t MeshCounts::*size;
 };
 
 const std::string of_time = "time", of_work = "work";
 
-Quantity time_of(std::string name, cases::SecondsOf seconds, const char* over = "vertices",
+Quantity time_of(std::string name, bench::SecondsOf seconds, const char* over = "vertices",
                  std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
   return {
       std::move(name), of_time.c_str(), over,
-      [seconds = std::move(seconds)](const cases::MeasuredCase& m) { return bench::median(samples_of(m, seconds)); },
+      [seconds = std::move(seconds)](const bench::MeasuredCase& m) { return bench::median(samples_of(m, seconds)); },
       size};
 }
 
@@ -92,7 +92,7 @@ Quantity work_of(std::string name, Stage stage, std::uint64_t Work::*count, cons
                  std::uint64_t MeshCounts::*size = &MeshCounts::vertices) {
   return {
       std::move(name), of_work.c_str(), over,
-      [stage, count](const cases::MeasuredCase& m) { return static_cast<double>(m.first.costs[stage].work.*count); },
+      [stage, count](const bench::MeasuredCase& m) { return static_cast<double>(m.first.costs[stage].work.*count); },
       size};
 }
 
@@ -115,13 +115,9 @@ std::vector<Quantity> quantities_of(const Fig8Row& row) {
 }
 
 /// The growth of a quantity in a series.
-struct Fit {
+struct SeriesFit : Fit {
   Series series;
-  Quantity quantity;
-  Growth growth = {};
-  bench::LineFit line = {};
-  std::string not_judged = {};  ///< why
-  double least = 0, most = 0;   ///< size
+  Quantity of;
 };
 
 /// An end of the straight line through the points.
@@ -130,7 +126,7 @@ struct LineEnd {
   double vertices, seconds;
 };
 
-std::vector<std::string> runs_of(const Fit& fit) {
+std::vector<std::string> runs_of(const SeriesFit& fit) {
   return all_runs_of(fit.series);
 }
 std::vector<std::string> runs_of(const LineEnd& end) {
@@ -152,25 +148,23 @@ const Fig8Row& first_point(const Row& row) {
   return row.series.front();
 }
 
-bool is_time(const Fit& fit) {
-  return fit.quantity.kind == of_time;
+bool is_time(const Quantity& quantity) {
+  return quantity.kind == of_time;
 }
 
 /// The columns of fits of times or of work, whose exponents change with the machine or do not.
-RowColumns<Fit> fit_columns(Column (*exponent_column)(std::string, std::string, std::string)) {
-  return series_columns<Fit>(
-      first_point,
-      {{label_column("quantity", "of"), [](const Fit& fit) { return fit.quantity.name; }},
-       {label_column("over"), [](const Fit& fit) { return std::string(fit.quantity.over); }},
-       {figure_column("sizes"), [](const Fit& fit) { return std::uint64_t{fit.growth.sizes}; }},
-       {figure_column("decades"), [](const Fit& fit) { return fit.growth.decades; }},
-       {exponent_column("exponent", "", ""), [](const Fit& fit) { return fit.growth.power.slope; }},
-       {exponent_column("scatter", "", ""), [](const Fit& fit) { return fit.growth.scatter; }},
-       {exponent_column("per_unit", "slope per unit", ""),
-        [](const Fit& fit) { return is_time(fit) ? 1e6 * fit.line.slope.value : fit.line.slope.value; }},
-       {note_column("better", "n or n log n"), [](const Fit& fit) { return words_of(fit.growth.better); }},
-       {label_column("judged"), [](const Fit& fit) { return std::string(fit.not_judged.empty() ? "yes" : "no"); }},
-       {note_column("why_not", "why it is not judged"), &Fit::not_judged}});
+RowColumns<SeriesFit> fit_columns(Column (*exponent_column)(std::string, std::string, std::string)) {
+  RowColumns<SeriesFit> columns = series_columns<SeriesFit>(
+      first_point, {{label_column("quantity", "of"), &SeriesFit::quantity},
+                    {label_column("over"), [](const SeriesFit& fit) { return std::string(fit.of.over); }}});
+  append(columns, growth_columns(exponent_column));
+  append(columns,
+         RowColumns<SeriesFit>{
+             {exponent_column("per_unit", "slope per unit", ""),
+              [](const SeriesFit& fit) { return (is_time(fit.of) ? 1e6 : 1) * fit.growth.line.slope.value; }},
+             {note_column("better", "n or n log n"), [](const Fit& fit) { return words_of(fit.growth.better); }}});
+  append(columns, verdict_columns());
+  return columns;
 }
 
 const RowColumns<Fig8Row> point_columns =
@@ -186,27 +180,19 @@ const RowColumns<LineEnd> line_columns = series_columns<LineEnd>(
     first_point,
     {{figure_column("vertices"), &LineEnd::vertices}, {time_column("seconds", "", "s"), &LineEnd::seconds}});
 
-/// None with fewer than three points that are not zero.
-void add_fit(Series series, const Quantity& quantity, std::vector<Fit>& fits) {
+void add_fit(Series series, const Quantity& quantity, std::vector<SeriesFit>& fits) {
   std::vector<double> sizes, values;
   for (const Fig8Row& row : series) {
     if (!row.ok() || row.measured.counted.empty()) continue;
-    const double value = quantity.of(row.measured);
-    const auto size = static_cast<double>(row.measured.first.counts.*quantity.size);
-    if (value <= 0 || size <= 1) continue;
-    sizes.push_back(size);
-    values.push_back(value);
+    sizes.push_back(static_cast<double>(row.measured.first.counts.*quantity.size));
+    values.push_back(quantity.of(row.measured));
   }
-  if (sizes.size() < 3 || std::ranges::min(sizes) == std::ranges::max(sizes)) return;
-  Fit fit{series, quantity, growth_of(sizes, values), bench::fit_line(sizes, values)};
-  fit.not_judged = why_not_judged(fit.growth, is_time(fit) ? rule_for_times : rule_for_work);
-  fit.least = std::ranges::min(sizes), fit.most = std::ranges::max(sizes);
-  fits.push_back(std::move(fit));
+  std::optional<Fit> fit = fit_of(quantity.name, sizes, values, is_time(quantity) ? rule_for_times : rule_for_work);
+  if (fit) fits.push_back({*std::move(fit), series, quantity});
 }
 
-std::string finding_of(const Fit& fit) {
-  const std::string who =
-      fit.series.front().model + ", " + fit.series.front().strategy + ", " + fit.quantity.name + ": ";
+std::string finding_of(const SeriesFit& fit) {
+  const std::string who = fit.series.front().model + ", " + fit.series.front().strategy + ", " + fit.quantity + ": ";
   return who + "the exponent is " + with_interval(fit.growth.power.slope) + ": " +
          choose(is_linear(fit.growth.power.slope), "linear", "undecided, a bound is within the interval",
                 "not linear") +
@@ -248,11 +234,11 @@ std::vector<ModelSize> sizes_of(const ExperimentOptions& options, const PaperMod
   return sizes;
 }
 
-cases::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
+bench::Case case_of(const ExperimentOptions& options, const PaperModel& model, const ModelSize& size,
                     const Strategy& strategy) {
   constexpr double most_verified = 2;
   const bool is_ours = strategy.mesher == "ccdt";
-  cases::Case one = single_case(
+  bench::Case one = single_case(
       options, joined({model.name, strategy.label, "edge length " + rounded(size.edge_length)}), strategy.mesher,
       size.surface, words_of(strategy.words + (is_ours ? " --improve none --steiner keep --grading 0" : "")));
   one.group = "fig8";
@@ -280,23 +266,22 @@ void plan_model(const ExperimentOptions& options, const PaperModel& model, std::
 
 ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
   ExperimentResult result{.definitions = definitions};
-  std::vector<Fit> times, work;
+  std::vector<SeriesFit> times, work;
   std::vector<LineEnd> lines;
   for (const Series series : neighbors(
            rows, [](const Fig8Row&a, const Fig8Row&b) { return a.model == b.model && a.strategy == b.strategy; })) {
     const std::size_t before = times.size();
     for (const Quantity& quantity : quantities_of(series.front()))
-      add_fit(series, quantity, quantity.kind == of_time ? times : work);
+      add_fit(series, quantity, is_time(quantity) ? times : work);
     if (times.size() == before) continue;
-    const Fit& fit = times[before];
-    for (const double vertices : {fit.least, fit.most})
-      lines.push_back({series, vertices, fit.line.intercept + vertices * fit.line.slope.value});
+    const Growth& growth = times[before].growth;
+    for (const double vertices : {growth.least, growth.most})
+      lines.push_back({series, vertices, growth.line.intercept + vertices * growth.line.slope.value});
   }
-  for (const std::vector<Fit>* fits : {&work, &times}) {
-    const auto judged = [](const Fit& fit) { return fit.not_judged.empty(); };
-    for (const Fit& fit : *fits)
-      if (judged(fit)) result.findings.push_back(finding_of(fit));
-    const auto others = std::ranges::count_if(*fits, std::not_fn(judged));
+  for (const std::vector<SeriesFit>* fits : {&work, &times}) {
+    for (const SeriesFit& fit : *fits)
+      if (fit.is_judged()) result.findings.push_back(finding_of(fit));
+    const auto others = std::ranges::count_if(*fits, std::not_fn(&Fit::is_judged));
     if (others > 0)
       result.findings.push_back(with_separators(static_cast<std::uint64_t>(others)) + " fits of " +
                                 std::string(fits == &work ? "work" : "times") +
@@ -310,7 +295,7 @@ ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
   return result;
 }
 
-ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_fig8(const ExperimentOptions& options, bench::Runner& runner) {
   constexpr double precision = 0;  // six runs are enough: the interval of a fit comes from the scatter of the sizes
   std::vector<Fig8Row> rows;
   for (const PaperModel& model : paper_models)

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+#include <vector>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::experiments {
 namespace {
 
-using results::rounded;
+using bench::rounded;
 
 /// The variance that remains if log y is a given function of n plus a free constant.
 template <class LogOfLaw>
@@ -51,8 +53,10 @@ std::string words_of(Law law) {
 Growth growth_of(std::span<const double> sizes, std::span<const double> y) {
   Growth growth;
   growth.power = bench::fit_power(sizes, y);
+  growth.line = bench::fit_line(sizes, y);
   growth.sizes = sizes.size();
-  growth.decades = std::log10(std::ranges::max(sizes) / std::ranges::min(sizes));
+  growth.least = std::ranges::min(sizes), growth.most = std::ranges::max(sizes);
+  growth.decades = std::log10(growth.most / growth.least);
   const double around = variance_around(sizes, y, [&](double n) { return growth.power.slope.value * std::log(n); });
   growth.scatter = std::sqrt(around * static_cast<double>(sizes.size()) / static_cast<double>(sizes.size() - 2));
   growth.better = better_law(sizes, y);
@@ -75,6 +79,32 @@ bench::BoundTest is_linear(const bench::Estimate& exponent) {
                          below = bench::is_at_most(exponent, 1 + linear_within);
   if (above == bench::BoundTest::fails || below == bench::BoundTest::fails) return bench::BoundTest::fails;
   return above == bench::BoundTest::holds ? below : above;
+}
+
+std::optional<Fit> fit_of(std::string quantity, std::span<const double> sizes, std::span<const double> values,
+                          const FitRule& rule) {
+  std::vector<double> x, y;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    if (sizes[i] <= 1 || values[i] <= 0) continue;
+    x.push_back(sizes[i]);
+    y.push_back(values[i]);
+  }
+  if (x.size() < 3 || std::ranges::min(x) == std::ranges::max(x)) return {};
+  Fit fit{std::move(quantity), growth_of(x, y)};
+  fit.not_judged = why_not_judged(fit.growth, rule);
+  return fit;
+}
+
+results::RowColumns<Fit> growth_columns(results::Column (*number_column)(std::string, std::string, std::string)) {
+  return {{results::figure_column("sizes"), [](const Fit& fit) { return std::uint64_t{fit.growth.sizes}; }},
+          {results::figure_column("decades"), [](const Fit& fit) { return fit.growth.decades; }},
+          {number_column("exponent", "", ""), [](const Fit& fit) { return fit.growth.power.slope; }},
+          {number_column("scatter", "", ""), [](const Fit& fit) { return fit.growth.scatter; }}};
+}
+
+results::RowColumns<Fit> verdict_columns() {
+  return {{results::label_column("judged"), &Fit::is_judged},
+          {results::note_column("why_not", "why it is not judged"), &Fit::not_judged}};
 }
 
 }  // namespace ccdt::experiments

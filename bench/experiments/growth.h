@@ -1,10 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "bench/statistics.h"
+#include "bench/results/row_columns.h"
+#include "bench/run/statistics.h"
 
 namespace ccdt::experiments {
 
@@ -17,9 +18,11 @@ std::string words_of(Law law);
 /// How something grows with the size n of the input.
 struct Growth {
   bench::LineFit power = {};  ///< log y over log n; the slope is the exponent
+  bench::LineFit line = {};   ///< y over n
   std::size_t sizes = 0;
-  double decades = 0;  ///< log10 of the largest size over the smallest
-  double scatter = 0;  ///< standard deviation of y around the power law, as a share
+  double least = 0, most = 0;  ///< size
+  double decades = 0;          ///< log10 of the largest size over the smallest
+  double scatter = 0;          ///< standard deviation of y around the power law, as a share
   Law better = Law::cannot_tell;
 };
 
@@ -44,5 +47,25 @@ inline constexpr double linear_within = 0.1;
 inline constexpr double nearly_linear = 1.2;
 
 bench::BoundTest is_linear(const bench::Estimate& exponent);
+
+/// How a quantity grows in a series of runs.
+struct Fit {
+  std::string quantity;
+  Growth growth = {};
+  std::string not_judged = {};  ///< why
+
+  bool is_judged() const { return not_judged.empty(); }
+};
+
+/// The fit of the points at which both numbers are large enough: the size greater than 1, the value positive. None with
+/// fewer than three, or if all sizes are equal.
+std::optional<Fit> fit_of(std::string quantity, std::span<const double> sizes, std::span<const double> values,
+                          const FitRule& rule);
+
+/// \name Columns of fits. The numbers of fits of times change with the machine, so these are no figures.
+/// @{
+results::RowColumns<Fit> growth_columns(results::Column (*number_column)(std::string, std::string, std::string));
+results::RowColumns<Fit> verdict_columns();
+/// @}
 
 }  // namespace ccdt::experiments

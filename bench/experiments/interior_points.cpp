@@ -119,7 +119,7 @@ ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
   return result;
 }
 
-ExperimentResult measure_interior_points(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_interior_points(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<SurfaceFile> files = write_solids(options, "interior-points", coarsenings);
   append(files, input_files(options));
   check_something_is_measured(files.size(), "interior-points");

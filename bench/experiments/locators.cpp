@@ -2,7 +2,7 @@
 
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
-#include "bench/surface_measures.h"
+#include "bench/run/surface_measures.h"
 #include "engine/io/plc_files.h"
 
 namespace ccdt::experiments {
@@ -100,7 +100,7 @@ void add_group(const ExperimentOptions& options, const SurfaceFile& surface, Sur
     std::string words =
         "--improve none --steiner keep --locator " + std::string(name_of(locator)) + " --face-protection " + check;
     if (kind == SurfaceKind::uniform) words += " --grading 0";
-    const cases::Case single =
+    const bench::Case single =
         single_case(options, name + ", " + std::string(name_of(locator)), "ccdt", surface.file, words_of(words));
     row.measured.asked = timed_case(options, "locators " + name, single, usual_precision, row.seconds);
     rows.push_back(row);
@@ -146,7 +146,7 @@ ExperimentResult locators_result(std::span<const LocatorsRow> rows) {
   return result;
 }
 
-ExperimentResult measure_locators(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_locators(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<LocatorsRow> rows = plan(options);
   check_something_is_measured(rows.size(), "locators");
   measure_rows(runner, rows);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bench/experiments/surfaces.h"
-#include "bench/quality.h"
+#include "bench/run/quality.h"
 
 namespace ccdt::experiments {
 namespace {
@@ -122,7 +122,7 @@ ExperimentResult min_sphere_result(std::span<const MinSphereRow> rows) {
   return result;
 }
 
-ExperimentResult measure_min_sphere(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_min_sphere(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<MinSphereRow> rows;
   for (const PaperModel& model : paper_models)
     if (is_asked_for(options, model.name))
@@ -131,7 +131,7 @@ ExperimentResult measure_min_sphere(const ExperimentOptions& options, cases::Run
   check_something_is_measured(rows.size(), "min-sphere");
   measure_rows(runner, rows);
   for (MinSphereRow& row : rows)
-    if (row.ok()) row.slivers = slivers_at_surface(cases::mesh_of(runner, row.measured));
+    if (row.ok()) row.slivers = slivers_at_surface(results::mesh_of(runner, row.measured));
   return min_sphere_result(rows);
 }
 

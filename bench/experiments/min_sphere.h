@@ -38,7 +38,7 @@ struct MinSphereRow : CaseRow {
 /// Does the rule of smallest spheres avoid slivers (paper, section 3, after Cavendish, Field and Frey 1985)? Unimproved
 /// FCC meshes of the paper's models and the user's files, with the rule and without it, each with and without our rule
 /// of a clearance.
-ExperimentResult measure_min_sphere(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_min_sphere(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by model
 ExperimentResult min_sphere_result(std::span<const MinSphereRow> rows);

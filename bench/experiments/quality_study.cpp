@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "baselines/mesher_input.h"
-#include "bench/count_search.h"
+#include "bench/experiments/count_search.h"
 #include "bench/experiments/inside_cells.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
@@ -34,19 +34,19 @@ std::vector<SurfaceFile> sources_of(const ExperimentOptions& options, const Stud
 /// One source while it is measured.
 struct SourceStudy {
   const ExperimentOptions& options;
-  cases::Runner& runner;
+  bench::Runner& runner;
   const StudyPlan& plan;
   const SurfaceFile& source;
   std::string title;  ///< "piston, 10,000 tetrahedra"
 
-  cases::Case case_of(const QualityVariant& variant, const std::filesystem::path& surface, double edge_length) const {
+  bench::Case case_of(const QualityVariant& variant, const std::filesystem::path& surface, double edge_length) const {
     std::vector<std::string> words = variant.words;
     append(words, std::vector<std::string>{"--edge-length", digits(edge_length), "--grading", "0"});
     return single_case(options, title + ", " + variant.name, variant.mesher, surface, words);
   }
 };
 
-std::optional<std::uint64_t> count_of(const cases::MeasuredCase& measured) {
+std::optional<std::uint64_t> count_of(const bench::MeasuredCase& measured) {
   if (measured.failed()) return {};
   return measured.first.counts.tetrahedra;
 }
@@ -80,7 +80,7 @@ EvenSurface find_surface(const SourceStudy& study) {
     const std::string file = study.plan.experiment + "-" + name + "-" + digits(edge_length) + ".poly";
     tried.push_back(make_even_surface(is_solid ? models::make_solid(name, edge_length) : input, edge_length,
                                       study.options.folder / "models" / file));
-    const cases::MeasuredCase measured = study.runner.run(
+    const bench::MeasuredCase measured = study.runner.run(
         study.case_of({"surface", "ccdt", {"--lattice", "fcc", "--improve", "none"}}, tried.back().file, edge_length));
     reason = measured.first.reason;
     return count_of(measured);
@@ -110,14 +110,14 @@ std::vector<double> edge_lengths_of(const SourceStudy& study, const EvenSurface&
 }
 
 /// Runs every variant once, and those that are short as often as an interval of their time needs.
-std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const EvenSurface& surface,
+std::vector<bench::MeasuredCase> run_variants(const SourceStudy& study, const EvenSurface& surface,
                                               const std::vector<double>& edge_lengths) {
-  std::vector<cases::Case> all;
+  std::vector<bench::Case> all;
   for (std::size_t i = 0; i < edge_lengths.size(); ++i)
     all.push_back(study.case_of(study.plan.variants[i], surface.file, edge_lengths[i]));
   for (std::size_t i = 0; i < all.size(); ++i)
     if (study.plan.variants[i].measures_inside) all[i].mesh_ending = mesh_format;
-  std::vector<cases::MeasuredCase> measured = study.runner.run(all);
+  std::vector<bench::MeasuredCase> measured = study.runner.run(all);
   if (study.plan.once) return measured;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (is_short(study.options, measured[i])) all[i] = timed_case(study.options, study.title, all[i], 0);
@@ -128,16 +128,16 @@ std::vector<cases::MeasuredCase> run_variants(const SourceStudy& study, const Ev
 }
 
 /// \pre its mesh was kept, if the case has not failed
-InsideQuality measure_inside(const cases::Runner& runner, const cases::MeasuredCase& measured) {
+InsideQuality measure_inside(const bench::Runner& runner, const bench::MeasuredCase& measured) {
   if (measured.failed()) return {};
-  const mesh::TetMesh inside = inside_cells(cases::mesh_of(runner, measured));
+  const mesh::TetMesh inside = inside_cells(results::mesh_of(runner, measured));
   return {inside.tetrahedra.size(), bench::measure_quality(inside)};
 }
 
 void measure_source(const SourceStudy& study, std::vector<QualityRow>& rows, std::vector<EvenSurface>& surfaces) {
   const EvenSurface& surface = surfaces.emplace_back(find_surface(study));
   const std::vector<double> edge_lengths = edge_lengths_of(study, surface);
-  std::vector<cases::MeasuredCase> measured = run_variants(study, surface, edge_lengths);
+  std::vector<bench::MeasuredCase> measured = run_variants(study, surface, edge_lengths);
   const std::uint64_t reference = measured.front().first.counts.tetrahedra;
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const QualityVariant& variant = study.plan.variants[i];
@@ -320,7 +320,7 @@ ExperimentResult study_result(const StudyPlan& plan, std::span<const QualityRow>
   return result;
 }
 
-ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& runner, const StudyPlan& plan) {
+ExperimentResult measure_study(const ExperimentOptions& options, bench::Runner& runner, const StudyPlan& plan) {
   const std::vector<SurfaceFile> sources = sources_of(options, plan);
   check_something_is_measured(sources.size(), plan.experiment);
   std::vector<QualityRow> rows;

@@ -7,8 +7,8 @@
 
 #include "bench/experiments/experiment.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/quality.h"
-#include "bench/surface_measures.h"
+#include "bench/run/quality.h"
+#include "bench/run/surface_measures.h"
 
 namespace ccdt::experiments {
 
@@ -76,7 +76,7 @@ inline constexpr std::uint64_t most_kept_tetrahedra = 150000;
 ///
 /// \throw InputError   there is nothing to measure
 /// \throw OutputError  a file of the experiment cannot be written
-ExperimentResult measure_study(const ExperimentOptions& options, cases::Runner& runner, const StudyPlan& plan);
+ExperimentResult measure_study(const ExperimentOptions& options, bench::Runner& runner, const StudyPlan& plan);
 
 /// The tables that all studies have (one row per mesh, histograms, surfaces), one of the tetrahedra inside if the plan
 /// measures them, and those that it adds.

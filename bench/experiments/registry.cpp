@@ -17,11 +17,11 @@
 namespace ccdt::experiments {
 namespace {
 
-using Measure = std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)>;
+using Measure = std::function<ExperimentResult(const ExperimentOptions&, bench::Runner&)>;
 
 /// The description of a study of quality.
 Measure study(const std::function<StudyPlan(const ExperimentOptions&)>& plan) {
-  return [plan](const ExperimentOptions& options, cases::Runner& runner) {
+  return [plan](const ExperimentOptions& options, bench::Runner& runner) {
     return measure_study(options, runner, plan(options));
   };
 }
@@ -32,7 +32,7 @@ Measure quality(const std::string& name, const std::vector<std::string>& models)
 
 /// The quality of one of the paper's models; the user cannot choose models then.
 Measure quality_figure(const std::string& name, const std::string& model) {
-  return [name, model](const ExperimentOptions& options, cases::Runner& runner) {
+  return [name, model](const ExperimentOptions& options, bench::Runner& runner) {
     ExperimentOptions own = options;
     own.inputs.clear();
     return quality(name, {model})(own, runner);
@@ -53,7 +53,7 @@ void add_uncertainty(const std::set<std::string>& names, ExperimentResult& resul
 }
 
 Measure named(const KnownExperiment& known) {
-  return [known](const ExperimentOptions& options, cases::Runner& runner) {
+  return [known](const ExperimentOptions& options, bench::Runner& runner) {
     Circumstances how = start_experiment(options, options.runs);
     ExperimentResult result = known.measure(options, runner);
     if (result.how.runs > 0) how.runs = result.how.runs;

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "bench/cases/runner.h"
 #include "bench/experiments/experiment.h"
+#include "bench/run/runner.h"
 
 namespace ccdt::experiments {
 
@@ -21,7 +21,7 @@ struct KnownExperiment {
 
   /// Measures what the records of the runner do not contain yet. The result has the name, title and section of this
   /// entry.
-  std::function<ExperimentResult(const ExperimentOptions&, cases::Runner&)> measure;
+  std::function<ExperimentResult(const ExperimentOptions&, bench::Runner&)> measure;
 };
 
 /// All experiments, in the order of reports.

@@ -222,7 +222,7 @@ ExperimentResult speed_result(std::span<const SpeedRow> rows) {
   return result;
 }
 
-ExperimentResult measure_speed(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_speed(const ExperimentOptions& options, bench::Runner& runner) {
   Plan plan{options};
   for (const PaperModel& model : paper_models) {
     if (!is_asked_for(options, model.name)) continue;

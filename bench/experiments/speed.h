@@ -17,7 +17,7 @@ struct SpeedRow : CaseRow {
 /// Measures speed beside other meshers, with memory and quality in the same rows: the surface alone and end to end, on
 /// our models of the paper's parts and the user's files; ccdt on 1, 2, 4, ... threads, also on models that grow with
 /// the threads.
-ExperimentResult measure_speed(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_speed(const ExperimentOptions& options, bench::Runner& runner);
 
 ExperimentResult speed_result(std::span<const SpeedRow> rows);
 

@@ -37,7 +37,7 @@ const std::vector<Way> ways = {
 /// Seconds of a way: a row of the table of times.
 struct Timed {
   std::string what, way;
-  cases::SecondsOf seconds = whole_seconds;
+  bench::SecondsOf seconds = whole_seconds;
   double PaperTimes::*in_paper = nullptr;
 };
 const std::string delaunay = "Delaunay", with_check = "CDT with face protection check", without_check = "CDT without",
@@ -127,7 +127,7 @@ const RowColumns<RatioRow> ratio_columns = {
 struct ModelRow : CaseRow {
   std::string model;
   double edge_length = 0;
-  cases::MeasuredCase without_check;
+  bench::MeasuredCase without_check;
 
   bool both_ok() const { return ok() && !without_check.failed(); }
   bool is_same_mesh() const { return measured.first.mesh_fingerprint == without_check.first.mesh_fingerprint; }
@@ -187,7 +187,7 @@ std::vector<WorkRow> work_rows(const Table1Model& model) {
 }
 
 /// Median microseconds per vertex or tetrahedron.
-double cost(const cases::MeasuredCase& measured, const cases::SecondsOf& seconds, std::uint64_t MeshCounts::*unit) {
+double cost(const bench::MeasuredCase& measured, const bench::SecondsOf& seconds, std::uint64_t MeshCounts::*unit) {
   return 1e6 * bench::median(samples_of(measured, seconds)) / static_cast<double>(measured.first.counts.*unit);
 }
 double delaunay_cost(const ModelRow& row) {
@@ -281,7 +281,7 @@ void add_differences(const ModelRow& row, const std::vector<RatioRow>& ratios, s
 }
 
 /// The model with the interior vertices of our mesh, for meshers that tetrahedralize the same vertices and facets.
-void write_with_interior_vertices(InputPlc plc, const cases::Runner& runner, const cases::MeasuredCase& ours,
+void write_with_interior_vertices(InputPlc plc, const bench::Runner& runner, const bench::MeasuredCase& ours,
                                   const std::filesystem::path& file) {
   const TetMesh mesh = mesh_of(runner, ours);
   const auto interior = static_cast<std::ptrdiff_t>(ours.first.counts.interior_vertices);
@@ -289,30 +289,30 @@ void write_with_interior_vertices(InputPlc plc, const cases::Runner& runner, con
   io::write_plc(plc, file);
 }
 
-Table1Model measure_model(const ExperimentOptions& options, const PaperModel& model, cases::Runner& runner) {
+Table1Model measure_model(const ExperimentOptions& options, const PaperModel& model, bench::Runner& runner) {
   Table1Model result{model.name, model.edge_length * edge_factor(options)};
   const auto file = [&](const char* rest) { return options.folder / "models" / (result.name + rest); };
   const auto surface = file(".poly"), with_interior_vertices = file("-with-interior-vertices.poly");
   const InputPlc plc = models::make_solid(result.name, result.edge_length);
   io::write_plc(plc, surface);
-  std::vector<cases::Case> asked;
+  std::vector<bench::Case> asked;
   std::filesystem::path vertices;
   for (const Way& way : ways) {
     if (!is_timed(options, way.mesher)) continue;
     const auto& input = way.input == Way::Input::surface        ? surface
                         : way.input == Way::Input::our_vertices ? vertices
                                                                 : with_interior_vertices;
-    cases::Case single = single_case(options, result.name + ", " + way.name, way.mesher, input, words_of(way.words));
+    bench::Case single = single_case(options, result.name + ", " + way.name, way.mesher, input, words_of(way.words));
     if (asked.empty()) {  // ours; others take its vertices
       single.mesh_ending = ".node";
-      const cases::MeasuredCase ours = runner.run(single);
+      const bench::MeasuredCase ours = runner.run(single);
       vertices = options.folder / mesh_file(ours);
       if (!ours.failed()) write_with_interior_vertices(plc, runner, ours, with_interior_vertices);
     }
     const auto seconds = way.mesher == "ccdt" ? cdt_seconds : whole_seconds;
     asked.push_back(timed_case(options, "table1 " + result.name, single, usual_precision, seconds));
   }
-  const std::vector<cases::MeasuredCase> measured = runner.run(asked);
+  const std::vector<bench::MeasuredCase> measured = runner.run(asked);
   for (std::size_t i = 0, next = 0; i < ways.size(); ++i)
     if (is_timed(options, ways[i].mesher)) result.cases[ways[i].name] = measured[next++];
   return result;
@@ -347,7 +347,7 @@ ExperimentResult table1_result(std::span<const Table1Model> models) {
   return result;
 }
 
-ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_table1(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<Table1Model> models;
   for (const PaperModel& model : paper_models)
     if (is_asked_for(options, model.name)) models.push_back(measure_model(options, model, runner));

@@ -7,7 +7,7 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/surfaces.h"
-#include "bench/surface_measures.h"
+#include "bench/run/surface_measures.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"
@@ -196,7 +196,7 @@ ExperimentResult termination_result(std::span<const TerminationRow> rows) {
   return result;
 }
 
-ExperimentResult measure_termination(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_termination(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<TerminationRow> rows;
   for (const models::Star& star : models::stars())
     if (is_asked_for(options, star.name)) add_star(options, star, rows);

@@ -127,7 +127,7 @@ ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
   return result;
 }
 
-ExperimentResult measure_theorem1(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_theorem1(const ExperimentOptions& options, bench::Runner& runner) {
   const auto cases = static_cast<std::uint64_t>(std::max(1.0, std::round(options.tetrahedra / tetrahedra_per_case)));
   std::vector<FamilyTrials> families;
   for (const Family& family : small_plcs::families()) {

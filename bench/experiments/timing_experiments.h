@@ -17,7 +17,7 @@ namespace ccdt::experiments {
 struct Table1Model {
   std::string name;
   double edge_length = 0;  ///< units of the model
-  std::map<std::string, cases::MeasuredCase> cases = {};
+  std::map<std::string, bench::MeasuredCase> cases = {};
 };
 
 /// In the paper, sending every face through the front costs more than this many times as much as Delaunay.
@@ -25,12 +25,12 @@ inline constexpr double least_gain = 8;
 
 /// Measures the CDT on our models of the paper's three parts with and without the check, and other meshers for
 /// comparison.
-ExperimentResult measure_table1(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_table1(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult table1_result(std::span<const Table1Model> models);
 
 /// Fig. 7 of the paper: the meshes of our models of its three parts, kept for pictures that show them cut open. They
 /// have the wanted number of tetrahedra, but not more than a picture can show.
-ExperimentResult measure_fig7(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_fig7(const ExperimentOptions& options, bench::Runner& runner);
 
 /// A model at one size, meshed with one strategy.
 struct Fig8Row : CaseRow {
@@ -41,7 +41,7 @@ struct Fig8Row : CaseRow {
 /// Measures work and time against size at uniform density (paper, Fig. 8): our models in steps of a quarter
 /// decade, over two decades and one of them over three, as far as the scale allows. All sizes and strategies are run in
 /// one random order.
-ExperimentResult measure_fig8(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_fig8(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by model and strategy, from the coarsest size
 ExperimentResult fig8_result(std::span<const Fig8Row> rows);
@@ -73,7 +73,7 @@ struct LocatorsRow : CaseRow {
 /// graded cube; with and without it on a rough sphere and on the user's files.
 ///
 /// \throw InputError  a file cannot be read
-ExperimentResult measure_locators(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_locators(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by surface and check: grid, octree, cavity
 ExperimentResult locators_result(std::span<const LocatorsRow> rows);
@@ -91,7 +91,7 @@ ExperimentResult locators_result(std::span<const LocatorsRow> rows);
 ///
 /// \throw OutputError  the folder cannot be written
 /// \throw InputError   there is nothing to measure
-ExperimentResult measure_delaunay(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_delaunay(const ExperimentOptions& options, bench::Runner& runner);
 
 /// The path of `bench_delaunay`, beside `ccdt` or in its build tree; empty if it is missing.
 std::filesystem::path find_bench_delaunay(const std::filesystem::path& ccdt);

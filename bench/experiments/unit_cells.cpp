@@ -5,16 +5,12 @@
 #include <map>
 #include <utility>
 
-#include "bench/bravais/bravais_lattices.h"
+#include "bench/experiments/bravais/bravais_lattices.h"
 
 namespace ccdt::experiments {
 namespace {
 
-using bravais::BravaisLattice;
-using bravais::Choice;
-using bravais::Fraction;
-using bravais::Gram;
-using bravais::UnitCellQuality;
+using bravais::BravaisLattice, bravais::Choice, bravais::Fraction, bravais::Gram, bravais::UnitCellQuality;
 
 constexpr const char* face_centered_cubic = "face-centered cubic";
 

@@ -9,7 +9,7 @@
 #include "bench/experiments/surfaces.h"
 #include "bench/gate/callgrind_profile.h"
 #include "bench/gate/instructions.h"
-#include "bench/in_parallel.h"
+#include "bench/run/in_parallel.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 
@@ -57,7 +57,7 @@ const RowColumns<VisibilityCostRow> columns = {
     {note_column("reason", "why it is missing"), &VisibilityCostRow::why_missing}};
 
 /// The profile of the run of a case; made unless an earlier call has made it.
-std::string profile_of(const ExperimentOptions& options, const cases::MeasuredCase& measured) {
+std::string profile_of(const ExperimentOptions& options, const bench::MeasuredCase& measured) {
   const auto valgrind = baselines::find_on_path("valgrind");
   if (!valgrind) throw InputError("there is no valgrind on this machine", {}, "install it");
   const auto folder = options.folder / "instructions";
@@ -141,7 +141,7 @@ ExperimentResult visibility_cost_result(std::span<const VisibilityCostRow> rows)
   return result;
 }
 
-ExperimentResult measure_visibility_cost(const ExperimentOptions& options, cases::Runner& runner) {
+ExperimentResult measure_visibility_cost(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<VisibilityCostRow> rows;
   ExperimentOptions smaller = options;
   smaller.tetrahedra *= share_of_size;

@@ -37,7 +37,7 @@ struct VisibilityCostRow : CaseRow {
 
 /// Measures the share of the visibility tests in the CDT (paper, section 5) in machine instructions, which callgrind
 /// counts exactly, on the paper's three models and with its strategies. Without valgrind, rows say so.
-ExperimentResult measure_visibility_cost(const ExperimentOptions& options, cases::Runner& runner);
+ExperimentResult measure_visibility_cost(const ExperimentOptions& options, bench::Runner& runner);
 ExperimentResult visibility_cost_result(std::span<const VisibilityCostRow> rows);
 
 }  // namespace ccdt::experiments

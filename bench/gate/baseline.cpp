@@ -10,8 +10,8 @@
 
 #include "baselines/json_schema.h"
 #include "bench/gate/baseline_schema.h"
-#include "bench/json_fields.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json_fields.h"
+#include "bench/run/numbers.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 
@@ -147,7 +147,7 @@ BaselineUpdate update_for(const std::vector<JudgedFigure>& figures, const Rules&
 }
 
 std::string in_words(const BaselineUpdate& update, double ratio) {
-  return update.date + " " + results::rounded(100 * (ratio - 1), 2) + "% (" + update.reason + ")";
+  return update.date + " " + bench::rounded(100 * (ratio - 1), 2) + "% (" + update.reason + ")";
 }
 
 /// The updates that changed the cost of a layer, with their ratios.
@@ -166,8 +166,8 @@ std::string note_on(const std::string& layer, const Changes& changes) {
   const std::string how =
       worse >= updates_of_a_trend
           ? "the last " + std::to_string(worse) + " updates of the baseline all made it worse"
-          : "the updates of the baseline together made it " + results::rounded(100 * (together - 1), 2) + "% worse";
-  return layer + ": " + how + ": " + results::joined(reasons, "; ");
+          : "the updates of the baseline together made it " + bench::rounded(100 * (together - 1), 2) + "% worse";
+  return layer + ": " + how + ": " + bench::joined(reasons, "; ");
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include "bench/gate/recording.h"
 #include "bench/gate/rules.h"
 #include "bench/gate/verdict.h"
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 namespace ccdt::gate {
 

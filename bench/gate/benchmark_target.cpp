@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/gate/foreign_json.h"
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 #include "engine/io/files.h"
 
 namespace ccdt::gate {

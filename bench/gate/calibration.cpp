@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "bench/gate/pair_statistics.h"
-#include "bench/json_fields.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json_fields.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::bench {
 
@@ -250,8 +250,8 @@ void require_enough(const CaseNoise& noise, const TimeRules& rules) {
                       enough, "measure " + std::to_string(enough) + " pairs of each case");
 }
 
-using results::percent;
-using results::rounded;
+using bench::percent;
+using bench::rounded;
 
 std::string shares(const bench::Estimate& share) {
   return percent(share.value) + " [" + percent(share.low) + ", " + percent(share.high) + "]";

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "bench/cases/identity.h"
 #include "bench/gate/paired_samples.h"
 #include "bench/gate/rules.h"
-#include "bench/statistics.h"
+#include "bench/run/identity.h"
+#include "bench/run/statistics.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::gate {
@@ -43,7 +43,7 @@ struct GateRates {
 /// The noise of this host: schema ccdt.calibration/1.
 struct Calibration {
   std::string program;
-  cases::Identity identity;  ///< of the machine
+  bench::Identity identity;  ///< of the machine
   std::uint64_t seed = 0;
   std::vector<CaseNoise> cases;
   GateRates rates;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bench/gate/paired_samples.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::gate {
 namespace {
@@ -82,7 +82,7 @@ void judge_numbers(const ExactRules& rules, JudgedFigure& judged) {
   if (!is_loss) {
     judged.words = "better";
   } else if (is_tolerated) {
-    judged.words = "worse by less than the tolerance of " + results::rounded(100 * tolerance) + "%";
+    judged.words = "worse by less than the tolerance of " + bench::rounded(100 * tolerance) + "%";
   } else {
     judged.verdict = Judgment::worse;
     judged.words = better == Better::same ? "must stay the same; exact" : "exact";
@@ -127,10 +127,10 @@ void judge_by_pairs(const Figure& base, const Figure& head, const ExactRules& ru
     judged.verdict = Judgment::worse;
     judged.changed = true;
     judged.badness = loss.value;
-    judged.words = "the whole interval is beyond the tolerance of " + results::percent(std::expm1(tolerance));
+    judged.words = "the whole interval is beyond the tolerance of " + bench::percent(std::expm1(tolerance));
   } else if (loss.high > tolerance) {
     judged.verdict = Judgment::undecided;
-    judged.words = "the interval is on both sides of the tolerance of " + results::percent(std::expm1(tolerance)) +
+    judged.words = "the interval is on both sides of the tolerance of " + bench::percent(std::expm1(tolerance)) +
                    "; a larger tolerance or more pairs would decide it";
   }
 }
@@ -248,8 +248,8 @@ JudgedFigure judge_instructions(const Figure& base, const Figure& head, const Ca
   }
   judged.verdict = Judgment::worse;
   judged.badness = badness_of(*judged.base, *judged.head);
-  judged.words = "beyond " + results::rounded(100 * limits.relative) + "% and " +
-                 results::with_separators(static_cast<std::uint64_t>(limits.absolute)) + " instructions; counted";
+  judged.words = "beyond " + bench::rounded(100 * limits.relative) + "% and " +
+                 bench::with_separators(static_cast<std::uint64_t>(limits.absolute)) + " instructions; counted";
   return judged;
 }
 

@@ -8,7 +8,7 @@
 
 #include "baselines/parse_json.h"
 #include "baselines/process.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::gate {
 namespace {
@@ -172,7 +172,7 @@ void add_hyperfine(const Json& json, Recording& recording) {
       codes.insert(code.is_number() ? code.get<int>() : -1);
     std::vector<std::string> words;
     for (const int code : codes) words.push_back(std::to_string(code));
-    if (!words.empty()) one.figures.push_back({"exit_codes", Layer::exact, {}, results::joined(words)});
+    if (!words.empty()) one.figures.push_back({"exit_codes", Layer::exact, {}, bench::joined(words)});
     recording.cases.push_back(std::move(one));
   }
 }

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "bench/gate/recording.h"
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 /// Recordings of other programs.
 namespace ccdt::gate {

@@ -10,9 +10,9 @@
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
-#include "bench/environment.h"
-#include "bench/in_parallel.h"
-#include "bench/run_record.h"
+#include "bench/run/environment.h"
+#include "bench/run/in_parallel.h"
+#include "bench/run/run_record.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 
@@ -74,14 +74,14 @@ std::vector<std::string> command_of(const fs::path& valgrind, const std::string&
 }
 
 /// The command that repeats the count outside the gate.
-std::string repeating_command(const fs::path& program, const cases::Case& asked) {
+std::string repeating_command(const fs::path& program, const bench::Case& asked) {
   std::vector<std::string> command = {"valgrind", "--tool=callgrind", program.string(), "mesh", asked.input.string(),
                                       "-o",       "again.vtu",        "--threads",      "1"};
   command.insert(command.end(), asked.options.begin(), asked.options.end());
   return baselines::command_line(command);
 }
 
-StageInstructions count_stages(const fs::path& valgrind, const fs::path& program, const cases::Case& asked,
+StageInstructions count_stages(const fs::path& valgrind, const fs::path& program, const bench::Case& asked,
                                const fs::path& kept_profile) {
   const baselines::TemporaryFolder folder;
   link_to(program, folder.path() / program_name);
@@ -123,7 +123,7 @@ fs::path find_valgrind() {
   return *found;
 }
 
-cases::Identity instruction_identity(const fs::path& program) {
+bench::Identity instruction_identity(const fs::path& program) {
   const fs::path valgrind = find_valgrind();
   const baselines::TemporaryFolder folder;
   const auto input = folder.path() / "cube.off", report = folder.path() / report_name;
@@ -144,10 +144,10 @@ cases::Identity instruction_identity(const fs::path& program) {
           {"instructions.flags", record->environment.flags}};
 }
 
-void add_instructions(const fs::path& program, std::span<const cases::Case> cases, const Rules& rules,
+void add_instructions(const fs::path& program, std::span<const bench::Case> cases, const Rules& rules,
                       const fs::path& folder, Recording& recording, const Progress& progress) {
-  std::vector<const cases::Case*> counted;
-  for (const cases::Case& c : cases)
+  std::vector<const bench::Case*> counted;
+  for (const bench::Case& c : cases)
     if (c.mesher == "ccdt" && matches(rules.instructions.cases, c.name)) counted.push_back(&c);
   if (counted.empty()) return;
   recording.identity.merge(instruction_identity(program));

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "bench/cases/case.h"
 #include "bench/gate/recording.h"
 #include "bench/gate/rules.h"
+#include "bench/run/case.h"
 #include "engine/base/progress.h"
 
 /// The instructions that a program executes, counted by callgrind: the same number in every run of one program on
@@ -44,7 +44,7 @@ std::filesystem::path find_valgrind();
 /// "instructions.flags".
 ///
 /// \throw InputError  there is no valgrind, or the program is not `ccdt`; says what to do
-cases::Identity instruction_identity(const std::filesystem::path& program);
+bench::Identity instruction_identity(const std::filesystem::path& program);
 
 /// Runs `ccdt mesh` of a program once under callgrind for each case of our mesher that the rules name. Adds the counts
 /// of the stages to the case of that name in the recording, or to a new one, as figures "instructions.STAGE". The
@@ -55,7 +55,7 @@ cases::Identity instruction_identity(const std::filesystem::path& program);
 /// \throw InputError  there is no valgrind, or a stage cannot be found; says what to do
 /// \throw MeshError   the program failed on a case; says with what
 /// \throw baselines::Stopped  the user has stopped this program
-void add_instructions(const std::filesystem::path& program, std::span<const cases::Case> cases, const Rules& rules,
+void add_instructions(const std::filesystem::path& program, std::span<const bench::Case> cases, const Rules& rules,
                       const std::filesystem::path& folder, Recording& recording, const Progress& progress = {});
 
 }  // namespace ccdt::gate

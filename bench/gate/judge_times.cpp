@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "bench/gate/compare.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::gate {
 namespace {
 
-using results::percent;
+using bench::percent;
 
 constexpr const char* skipped = "skipped";  ///< what Google Benchmark says of a benchmark that did not want to run
 
@@ -18,7 +18,7 @@ double median_of(std::span<const Pair> pairs, Side side) {
 }
 
 std::string pairs_text(std::size_t pairs) {
-  return results::with_separators(pairs) + (pairs == 1 ? " pair" : " pairs");
+  return bench::with_separators(pairs) + (pairs == 1 ? " pair" : " pairs");
 }
 
 std::string slowdown(double log_ratio) {
@@ -49,7 +49,7 @@ std::string remedy_words(const PairedSamples& one, const Look& look, std::size_t
                ? "set time.absolute_seconds of the rules to less than a tenth of the time"
            : look.threshold.reason == ThresholdReason::clock
                ? "measure more iterations at once (--benchmark_min_time): the clock counts in steps of " +
-                     results::rounded(1e9 * look.threshold.value * one.timed_seconds / 2) + " ns"
+                     bench::rounded(1e9 * look.threshold.value * one.timed_seconds / 2) + " ns"
                : "a quieter machine, or --rebuild";
   return "about " + pairs_text(static_cast<std::size_t>(pairs_for_verdict(look, static_cast<int>(pairs), rules))) +
          " would decide it (time.at_most of the rules is " + std::to_string(rules.at_most) + "), or a quieter machine";

@@ -6,7 +6,7 @@
 
 #include "bench/gate/paired_samples.h"
 #include "bench/gate/rules.h"
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 
 namespace ccdt::gate {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "bench/json_fields.h"
+#include "bench/run/json_fields.h"
 
 namespace ccdt::bench {
 

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "baselines/external_program.h"
 #include "bench/gate/callgrind_profile.h"
 #include "bench/gate/foreign_json.h"
 #include "bench/gate/instructions.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "engine/io/files.h"
 
 namespace ccdt::gate {
@@ -76,7 +77,7 @@ ProgramCounts count_run(const fs::path& valgrind, const Programs& programs, cons
 }
 
 std::string with_sign(double change) {
-  return (change < 0 ? "-" : "+") + results::with_separators(static_cast<std::uint64_t>(std::abs(change)));
+  return (change < 0 ? "-" : "+") + bench::with_separators(static_cast<std::uint64_t>(std::abs(change)));
 }
 
 /// The functions whose instructions grew most: "parse(char const*) +1,234".
@@ -91,7 +92,7 @@ std::string growth_words(const ProgramCounts& base, const ProgramCounts& head) {
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(most_functions, changes.size()); ++i)
     words.push_back(changes[i].second + " " + with_sign(changes[i].first));
-  return words.empty() ? "" : "; grew most: " + results::joined(words);
+  return words.empty() ? "" : "; grew most: " + bench::joined(words);
 }
 
 JudgedFigure start(const std::string& name, const std::string& case_name, std::uint64_t base, std::uint64_t head) {
@@ -111,7 +112,7 @@ JudgedFigure judge_exactly(JudgedFigure judged, std::uint64_t again, const Rules
   if (*judged.base != static_cast<double>(again)) {
     judged.verdict = Judgment::incomparable;
     judged.is_gated = false;
-    judged.words = "differs between two runs of the base: " + results::with_separators(again) + " in the second";
+    judged.words = "differs between two runs of the base: " + bench::with_separators(again) + " in the second";
     return judged;
   }
   const double tolerated = *judged.base * (1 + tolerance_of(rules.exact, judged.name));
@@ -159,10 +160,10 @@ std::vector<JudgedFigure> judge_counts(const std::string& case_name, const Progr
   if (now > static_cast<double>(most) * (1 + relative)) {
     total.verdict = Judgment::worse;
     total.changed = true;
-    total.words = "beyond " + results::percent(relative) + "; counted" + growth_words(base, head);
+    total.words = "beyond " + bench::percent(relative) + "; counted" + growth_words(base, head);
   } else if (spread > relative / 2) {
     total.verdict = Judgment::undecided;
-    total.words = "two runs of the base differ by " + results::percent(spread) +
+    total.words = "two runs of the base differ by " + bench::percent(spread) +
                   ": its work depends on its environment, the time or chance; make it repeatable, or set "
                   "instructions.relative of the rules to more than twice as much";
   } else if (now < static_cast<double>(fewest) * (1 - relative)) {

@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "baselines/process.h"
-#include "bench/environment.h"
 #include "bench/gate/baseline.h"
 #include "bench/gate/foreign_json.h"
 #include "bench/gate/recording.h"
-#include "bench/json.h"
-#include "bench/json_fields.h"
-#include "bench/results/numbers.h"
-#include "bench/run_record.h"
+#include "bench/run/environment.h"
+#include "bench/run/json.h"
+#include "bench/run/json_fields.h"
+#include "bench/run/numbers.h"
+#include "bench/run/run_record.h"
 #include "bench/sweep/sweep_document.h"
 #include "engine/base/digits.h"
 #include "engine/io/files.h"
@@ -46,7 +46,7 @@ Json parse(const std::filesystem::path& file) {
 }
 
 bool is_run(const Json& json) {
-  return json.is_object() && json.contains("schema") && json["schema"] == "ccdt.run/1";
+  return json.is_object() && bench::value_at(json, "schema") == bench::run_document.schema;
 }
 
 /// Longer names are no figures of ours; with many members, they would take more memory than the file by far.
@@ -106,7 +106,7 @@ void add_run(const RunFile& run, bool is_warm_up, CaseFigures& one) {
   }
 }
 
-void add_identity(const Json& run, cases::Identity& identity) {
+void add_identity(const Json& run, bench::Identity& identity) {
   const Json& environment = run.at("environment");
   identity["machine.cpu"] = environment.value("cpu", "");
   for (const char* field : {"compiler", "flags", "revision"}) identity[field] = environment.value(field, "");
@@ -124,7 +124,7 @@ std::string name_of_case(const Json& run, const std::string& input) {
     if (!value.is_structured() && value != usual_value)
       parts.push_back(name + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
   }
-  return results::joined(parts);
+  return bench::joined(parts);
 }
 
 /// Inputs by their names, without folders unless two different ones have one name.
@@ -169,7 +169,7 @@ Recording read_sweep(const std::filesystem::path& folder) {
   for (const sweep::SweepCase& one : document.cases) {
     CaseFigures figures{one.asked.name, {}, {}};
     for (int number = 0;; ++number) {
-      const auto file = folder / cases::run_file(one.id, number);
+      const auto file = folder / bench::run_file(one.id, number);
       if (!std::filesystem::exists(file)) break;
       const RunFile run = {file, parse(file)};
       read_from(file, [&] {

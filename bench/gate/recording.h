@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/identity.h"
+#include "bench/run/identity.h"
 #include "engine/base/enum_names.h"
 
 namespace ccdt::gate {
@@ -52,7 +52,7 @@ inline constexpr const char* case_figure = "case";
 struct Recording {
   std::filesystem::path source;
   Source kind = Source::runs;
-  cases::Identity identity = {};  ///< conditions of instruction counts, as field and value, such as "machine.cpu"
+  bench::Identity identity = {};  ///< conditions of instruction counts, as field and value, such as "machine.cpu"
   std::vector<CaseFigures> cases = {};
   bool in_turns = false;  ///< the n-th samples of this recording and of the other one were measured together
   std::vector<std::string> notes = {};  ///< which parts of the source are not in the figures, and why

@@ -7,7 +7,7 @@
 
 #include "baselines/json_schema.h"
 #include "bench/gate/rules_schema.h"
-#include "bench/json_fields.h"
+#include "bench/run/json_fields.h"
 
 namespace ccdt::bench {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/gate/recording.h"
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 namespace ccdt::gate {
 

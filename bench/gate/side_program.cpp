@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "baselines/external_program.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::gate {
 namespace {
@@ -40,7 +40,7 @@ std::string last_words(const std::string& printed) {
   for (std::string line; std::getline(text, line);)
     if (!is_banner(line) && line.find_first_not_of(" \t\r") != std::string::npos) lines.push_back(line);
   if (lines.size() > most_lines) lines.erase(lines.begin(), lines.end() - most_lines);
-  return results::joined(lines, " | ");
+  return bench::joined(lines, " | ");
 }
 
 }  // namespace

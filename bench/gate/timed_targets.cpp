@@ -2,8 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "bench/cases/run_case.h"
-#include "bench/json.h"
+#include "bench/run/json.h"
+#include "bench/run/run_case.h"
+#include "bench/run/run_record.h"
 
 namespace ccdt::gate {
 namespace {
@@ -12,17 +13,9 @@ constexpr const char* whole_process = "wall";
 
 /// "seconds.mesh" in the report of a run.
 double figure_of(const std::filesystem::path& report, const std::string& figure) {
-  static constexpr bench::DocumentKind kind = {"ccdt.run/1", "not a report of schema ccdt.run/1",
-                                               "the program must be ccdt"};
   double seconds = 0;
-  bench::parse_document(report, kind, [&](const bench::Json& json) {
-    const bench::Json* value = &json;
-    for (std::size_t begin = 0, end = 0; end != std::string::npos; begin = end + 1) {
-      end = figure.find('.', begin);
-      value = &value->at(figure.substr(begin, end == std::string::npos ? end : end - begin));
-    }
-    value->get_to(seconds);
-  });
+  bench::parse_document(report, bench::run_document,
+                        [&](const bench::Json& json) { bench::value_at(json, figure).get_to(seconds); });
   return seconds;
 }
 
@@ -30,34 +23,34 @@ Measured measured(const std::string& name, double seconds) {
   return {{name, {.seconds = seconds, .timed_seconds = seconds}}};
 }
 
-TimedTarget sweep_target(const Programs& programs, const cases::Case& asked, const Rules& rules,
+TimedTarget sweep_target(const Programs& programs, const bench::Case& asked, const Rules& rules,
                          const std::filesystem::path& folder) {
   const std::string figure = time_rules_of(rules, asked.name).figure;
   const auto report = folder / "timed.json";
   TimedTarget target = {asked.name, figure};
   target.run = [=](const RunRequest& request) {
     const Command command =
-        command_of(programs, request, cases::mesh_arguments(folder, asked, "timed.mesh", "timed.json"));
+        command_of(programs, request, bench::mesh_arguments(folder, asked, "timed.mesh", "timed.json"));
     std::filesystem::remove(report);
     const baselines::ProcessResult result = run(request, command, asked.limits, folder);
     return measured(asked.name, figure == whole_process ? result.seconds : figure_of(report, figure));
   };
   target.command = [=](Side side, const std::string&) {
     return baselines::command_line(
-        command_of(programs, {side}, cases::mesh_arguments(folder, asked, "again.mesh", "again.json")));
+        command_of(programs, {side}, bench::mesh_arguments(folder, asked, "again.mesh", "again.json")));
   };
   return target;
 }
 
 }  // namespace
 
-std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const cases::Case> cases, const Rules& rules,
+std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const bench::Case> cases, const Rules& rules,
                                        const std::filesystem::path& folder) {
   // In a separate folder without inputs, the commands contain the full paths of the inputs.
   const auto scratch = std::filesystem::absolute(folder) / "timed";
   std::filesystem::create_directories(scratch);
   std::vector<TimedTarget> targets;
-  for (const cases::Case& asked : cases)
+  for (const bench::Case& asked : cases)
     if (is_gated(rules, Layer::time, asked.name, time_rules_of(rules, asked.name).figure))
       targets.push_back(sweep_target(programs, asked, rules, scratch));
   return targets;

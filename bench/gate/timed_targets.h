@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "baselines/process.h"
-#include "bench/cases/case.h"
 #include "bench/gate/rules.h"
 #include "bench/gate/side_program.h"
+#include "bench/run/case.h"
 
 namespace ccdt::gate {
 
@@ -43,7 +43,7 @@ struct TimedTarget {
 ///
 /// \param cases   with inputs that exist; their options are passed on
 /// \param folder  for scratch files; exists
-std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const cases::Case> cases, const Rules& rules,
+std::vector<TimedTarget> sweep_targets(const Programs& programs, std::span<const bench::Case> cases, const Rules& rules,
                                        const std::filesystem::path& folder);
 
 /// Two programs of any kind, whose whole processes are timed. There is one case, named after the head.

@@ -7,8 +7,8 @@
 
 #include "bench/gate/recording.h"
 #include "bench/gate/rules.h"
-#include "bench/json.h"
-#include "bench/statistics.h"
+#include "bench/run/json.h"
+#include "bench/run/statistics.h"
 
 namespace ccdt::gate {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 namespace ccdt::results {
 

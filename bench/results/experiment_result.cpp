@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "bench/file_names.h"
-#include "bench/json_fields.h"
+#include "bench/run/file_names.h"
+#include "bench/run/json_fields.h"
 
 namespace ccdt::bench {
 

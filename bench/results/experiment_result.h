@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "baselines/process.h"
-#include "bench/environment.h"
-#include "bench/json.h"
 #include "bench/results/result_table.h"
+#include "bench/run/environment.h"
+#include "bench/run/json.h"
 
 namespace ccdt::results {
 

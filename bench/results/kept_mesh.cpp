@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "bench/json.h"
+#include "bench/run/json.h"
 
 namespace ccdt::results {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "bench/statistics.h"
+#include "bench/run/statistics.h"
 #include "engine/base/enum_names.h"
 
 namespace ccdt::results {

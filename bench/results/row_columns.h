@@ -65,16 +65,28 @@ struct RowColumn {
 template <class Row>
 using RowColumns = std::vector<RowColumn<Row>>;
 
+template <class Row>
+std::vector<Column> headings(const RowColumns<Row>& columns) {
+  std::vector<Column> all;
+  for (const RowColumn<Row>& column : columns) all.push_back(column.column);
+  return all;
+}
+
+template <class Row>
+std::vector<Cell> cells_of(const RowColumns<Row>& columns, const Row& row) {
+  std::vector<Cell> all;
+  for (const RowColumn<Row>& column : columns) all.push_back(column.cell(row));
+  return all;
+}
+
 /// A table with a row for each of `rows`. If there is a function `runs_of(row)`, it returns the files of the runs
 /// behind the row.
 template <class Row>
 ResultTable table_of_rows(std::string name, std::string title, const RowColumns<Row>& columns,
-                          const std::ranges::range auto& rows, bool is_data = false) {
-  ResultTable table{std::move(name), std::move(title), {}, {}, is_data};
-  for (const RowColumn<Row>& column : columns) table.columns.push_back(column.column);
+                          std::ranges::range auto&& rows, bool is_data = false) {
+  ResultTable table{std::move(name), std::move(title), headings(columns), {}, is_data};
   for (const Row& row : rows) {
-    ResultRow& made = table.rows.emplace_back();
-    for (const RowColumn<Row>& column : columns) made.cells.push_back(column.cell(row));
+    ResultRow& made = table.rows.emplace_back(ResultRow{cells_of(columns, row)});
     if constexpr (requires { runs_of(row); }) made.runs = runs_of(row);
   }
   return table;

@@ -14,8 +14,8 @@
 #include <system_error>
 #include <tuple>
 
-#include "bench/json.h"
-#include "bench/json_fields.h"
+#include "bench/run/json.h"
+#include "bench/run/json_fields.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 

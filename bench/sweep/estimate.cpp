@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/results/numbers.h"
-#include "bench/statistics.h"
+#include "bench/run/numbers.h"
+#include "bench/run/statistics.h"
 #include "bench/sweep/input_size.h"
 
 namespace ccdt::sweep {
@@ -56,11 +56,11 @@ struct Neighbors {
   Samples seconds, bytes, check;
 };
 
-double seconds_of(const cases::RunRecord& record) {
+double seconds_of(const bench::RunRecord& record) {
   return record.read_seconds + record.costs[Stage::remesh].seconds + record.costs.mesh_seconds + record.write_seconds;
 }
 
-void add_case(Neighbors& neighbors, double tetrahedra, const cases::MeasuredCase& measured) {
+void add_case(Neighbors& neighbors, double tetrahedra, const bench::MeasuredCase& measured) {
   neighbors.seconds.add(tetrahedra, seconds_of(measured.first));
   const double bytes = static_cast<double>(measured.first.peak_rss_bytes) - bytes_of_process;
   if (bytes > 0) neighbors.bytes.add(tetrahedra, bytes);  // a small case says nothing about larger ones
@@ -73,10 +73,10 @@ Kind mesher_of(const SweepCase& one) {
   return one.asked.mesher;
 }
 Kind kind_of(const SweepCase& one) {
-  return one.asked.mesher + " " + results::joined(one.asked.options, " ");
+  return one.asked.mesher + " " + bench::joined(one.asked.options, " ");
 }
 
-bool is_neighbor(const cases::MeasuredCase& measured) {
+bool is_neighbor(const bench::MeasuredCase& measured) {
   return measured.runs > 0 && !measured.failed();
 }
 
@@ -93,8 +93,8 @@ void set_from(CaseEstimate& estimate, const Neighbors& neighbors) {
   if (!neighbors.check.size.empty()) estimate.check_seconds = neighbors.check.at(estimate.tetrahedra);
 }
 
-void count_runs(CaseEstimate& estimate, const cases::MeasuredCase& measured) {
-  const cases::RunsLeft left = cases::runs_left(measured);
+void count_runs(CaseEstimate& estimate, const bench::MeasuredCase& measured) {
+  const bench::RunsLeft left = bench::runs_left(measured);
   estimate.runs = left.least;
   estimate.most_runs = left.most;
 }
@@ -103,20 +103,20 @@ void count_runs(CaseEstimate& estimate, const cases::MeasuredCase& measured) {
 std::string duration(double seconds) {
   constexpr double minute = 60, hour = 3600, day = 86400;
   if (seconds < 1) return "less than 1 s";
-  if (seconds < 2 * minute) return results::rounded(seconds, 2) + " s";
-  if (seconds < 2 * hour) return results::rounded(seconds / minute, 2) + " min";
-  if (seconds < 2 * day) return results::rounded(seconds / hour, 2) + " h";
-  return results::rounded(seconds / day, 2) + " days";
+  if (seconds < 2 * minute) return bench::rounded(seconds, 2) + " s";
+  if (seconds < 2 * hour) return bench::rounded(seconds / minute, 2) + " min";
+  if (seconds < 2 * day) return bench::rounded(seconds / hour, 2) + " h";
+  return bench::rounded(seconds / day, 2) + " days";
 }
 
 std::string bytes_words(double bytes) {
-  return results::mebibytes(static_cast<std::uint64_t>(bytes));
+  return bench::mebibytes(static_cast<std::uint64_t>(bytes));
 }
 
 }  // namespace
 
 std::vector<CaseEstimate> estimate_cases(std::span<const SweepCase> cases,
-                                         std::span<const cases::MeasuredCase> measured) {
+                                         std::span<const bench::MeasuredCase> measured) {
   std::vector<CaseEstimate> estimates(cases.size());
   std::map<Kind, Neighbors> of_mesher, of_kind;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -145,7 +145,7 @@ std::vector<CaseEstimate> estimate_cases(std::span<const SweepCase> cases,
   return estimates;
 }
 
-SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::MeasuredCase> measured,
+SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const bench::MeasuredCase> measured,
                      std::span<const CaseEstimate> estimates) {
   SweepEstimate sum;
   sum.cases = cases.size();
@@ -167,7 +167,7 @@ SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::Me
     if (!cases[i].asked.mesh_ending.empty()) sum.disk_bytes += mesh_bytes * estimate.tetrahedra;
     if (!std::filesystem::exists(cases[i].input.file) && models.insert(cases[i].input.file).second)
       sum.disk_bytes += model_bytes * size_of(cases[i].input).triangles;
-    if (estimate.neighbors == 0) unknown.insert(cases[i].mesher());
+    if (estimate.neighbors == 0) unknown.insert(cases[i].mesher);
   }
   sum.disk_bytes += largest_mesh;  // every mesh is written, and removed if it is not kept
   sum.unknown_meshers.assign(unknown.begin(), unknown.end());
@@ -189,7 +189,7 @@ bench::Json to_json(const SweepEstimate& estimate) {
 }
 
 std::string in_words(const SweepEstimate& estimate) {
-  using results::with_separators;
+  using bench::with_separators;
   std::string text = with_separators(estimate.cases) + " cases, " + with_separators(estimate.runs) +
                      " runs; missing: " + with_separators(estimate.missing_cases) + " cases, " +
                      with_separators(estimate.missing_runs) + " runs\n";
@@ -203,7 +203,7 @@ std::string in_words(const SweepEstimate& estimate) {
               ? "estimated from sizes alone, without any finished case: times may be wrong by a factor of 3\n"
               : "estimated from sizes and " + with_separators(estimate.finished_cases) + " finished cases\n";
   if (estimate.finished_cases > 0 && !estimate.unknown_meshers.empty())
-    text += "no finished case yet: " + results::joined(estimate.unknown_meshers) + "\n";
+    text += "no finished case yet: " + bench::joined(estimate.unknown_meshers) + "\n";
   return text;
 }
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/case.h"
-#include "bench/json.h"
+#include "bench/run/case.h"
+#include "bench/run/json.h"
 #include "bench/sweep/expand.h"
 
 namespace ccdt::sweep {
@@ -29,7 +29,7 @@ struct CaseEstimate {
 ///
 /// \param cases, measured  the same cases; those without records have not run yet
 std::vector<CaseEstimate> estimate_cases(std::span<const SweepCase> cases,
-                                         std::span<const cases::MeasuredCase> measured);
+                                         std::span<const bench::MeasuredCase> measured);
 
 /// The sum over a sweep.
 struct SweepEstimate {
@@ -42,7 +42,7 @@ struct SweepEstimate {
   std::vector<std::string> unknown_meshers = {};  ///< without finished cases, estimated by default figures
 };
 
-SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const cases::MeasuredCase> measured,
+SweepEstimate sum_of(std::span<const SweepCase> cases, std::span<const bench::MeasuredCase> measured,
                      std::span<const CaseEstimate> estimates);
 
 bench::Json to_json(const SweepEstimate& estimate);

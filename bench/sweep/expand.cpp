@@ -11,7 +11,7 @@
 #include "baselines/json_schema.h"
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
@@ -190,18 +190,19 @@ Values shown_options(const std::string& mesher, const Values& asked, const std::
 
 /// "piston-2, ccdt, lattice bcc": the options that have several values.
 std::string name_of_case(const SweepCase& one, const std::vector<OptionAxis>& axes) {
-  std::vector<std::string> parts = {one.input.name, one.mesher()};
+  std::vector<std::string> parts = {one.input.name, one.mesher};
   for (const OptionAxis& axis : axes) {
     const auto option = std::ranges::find(one.options, axis.name, &Values::value_type::first);
     if (axis.values.size() > 1 && option != one.options.end()) parts.push_back(axis.name + " " + option->second);
   }
-  return results::joined(parts);
+  return bench::joined(parts);
 }
 
 SweepCase case_of(const SweepSpec& spec, const ExpandedInput& input, const std::string& mesher, Values options) {
   SweepCase one;
   one.input = input.input;
   one.asked.mesher = mesher;
+  one.mesher = baselines::mesher(mesher).name;
   one.options = std::move(options);
   one.asked.name = name_of_case(one, input.options);
   one.asked.group = input.input.name;
@@ -230,10 +231,6 @@ std::vector<std::string> words_for(const std::string& mesher, const Values& opti
   std::vector<std::string> words;
   for (const auto& [name, value] : effective(mesher, options)) words.insert(words.end(), {"--" + name, value});
   return words;
-}
-
-std::string SweepCase::mesher() const {
-  return baselines::mesher(asked.mesher).name;
 }
 
 std::vector<SweepCase> expand(const SweepSpec& spec, const std::filesystem::path& folder,
@@ -268,9 +265,12 @@ void write_models(std::span<const SweepCase> cases, bool anew, const Progress& p
   }
 }
 
-std::vector<cases::Case> asked_of(std::span<const SweepCase> cases) {
-  std::vector<cases::Case> all;
-  for (const SweepCase& one : cases) all.push_back(one.asked);
+std::vector<bench::Case> asked_of(std::span<const SweepCase> cases) {
+  std::vector<bench::Case> all;
+  for (const SweepCase& one : cases) {
+    all.push_back(one.asked);
+    all.back().options = words_for(one.asked.mesher, one.options);
+  }
   return all;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/cases/case.h"
+#include "bench/run/case.h"
 #include "bench/sweep/spec.h"
 #include "engine/base/progress.h"
 
@@ -25,13 +25,11 @@ struct CaseInput {
 
 /// A case of a sweep.
 struct SweepCase {
-  cases::Case asked;
+  bench::Case asked;
   CaseInput input;
+  std::string mesher;                                        ///< its name in reports
   std::vector<std::pair<std::string, std::string>> options;  ///< options that make a difference to its mesher, by name
   std::string id = {};                                       ///< known once its input exists
-
-  /// The name in reports.
-  std::string mesher() const;
 };
 
 /// All cases of a spec: inputs times meshers times options, minus excluded ones. An option that a mesher does not have
@@ -51,7 +49,8 @@ std::vector<std::string> words_for(const std::string& mesher,
 /// \throw baselines::Stopped
 void write_models(std::span<const SweepCase> cases, bool anew, const Progress& progress);
 
-/// The cases for `cases::Runner`.
-std::vector<cases::Case> asked_of(std::span<const SweepCase> cases);
+/// The cases for `bench::Runner`, with the options as words of a command line.
+/// \throw Error  a mesher is not in this build, or its description cannot be read
+std::vector<bench::Case> asked_of(std::span<const SweepCase> cases);
 
 }  // namespace ccdt::sweep

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/surface_measures.h"
+#include "bench/run/surface_measures.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 #include "engine/plc/build_plc.h"

@@ -15,8 +15,8 @@
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
-#include "bench/json.h"
-#include "bench/json_fields.h"
+#include "bench/run/json.h"
+#include "bench/run/json_fields.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 

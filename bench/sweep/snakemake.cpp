@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "bench/json.h"
-#include "bench/results/numbers.h"
+#include "bench/run/json.h"
+#include "bench/run/numbers.h"
 #include "engine/io/files.h"
 
 namespace ccdt::sweep {
@@ -39,7 +39,7 @@ void write_snakefile(const std::filesystem::path& folder, std::span<const Chunk>
   io::OutputFile file(folder / "Snakefile");
   file << "# Runs the missing cases of a sweep in chunks: snakemake -s Snakefile --cores 2\n"
        << "program = " << literal(std::filesystem::absolute(options.program).string()) << '\n'
-       << "more_words = " << literal(results::joined(options.options, " ")) << '\n'
+       << "more_words = " << literal(bench::joined(options.options, " ")) << '\n'
        << "memory = {" << (megabytes > 0 ? "\"mem_mb\": " + std::to_string(megabytes) : "") << "}\n"
        << "threads_of = {";
   for (const Chunk& chunk : chunks)

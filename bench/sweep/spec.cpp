@@ -9,7 +9,7 @@
 
 #include "baselines/json_schema.h"
 #include "baselines/mesher.h"
-#include "bench/median_interval.h"
+#include "bench/run/median_interval.h"
 #include "bench/sweep/sweep_schema.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
@@ -191,8 +191,8 @@ std::vector<Exclusion> exclusions_of(const Reader& reader) {
   return all;
 }
 
-cases::Repetitions repetitions_of(const Reader& reader) {
-  cases::Repetitions repetitions;
+bench::Repetitions repetitions_of(const Reader& reader) {
+  bench::Repetitions repetitions;
   const Json json = reader.json.value("repetitions", Json(1));
   if (json.is_number()) {
     repetitions.at_least = repetitions.at_most = json.get<int>();
@@ -259,7 +259,7 @@ SweepSpec read_spec(const std::filesystem::path& file, const MeshOptionRules& ru
 }
 
 Json to_json(const SweepSpec& spec) {
-  const cases::Repetitions& repetitions = spec.repetitions;
+  const bench::Repetitions& repetitions = spec.repetitions;
   Json json = {{"schema", "ccdt.sweep/1"}, {"name", spec.name}};
   if (!spec.what.empty()) json["what"] = spec.what;
   if (!spec.expects.empty()) json["expects"] = spec.expects;

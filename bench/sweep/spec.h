@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "baselines/process.h"
-#include "bench/cases/case.h"
-#include "bench/json.h"
+#include "bench/run/case.h"
+#include "bench/run/json.h"
 
 namespace ccdt::sweep {
 
@@ -49,7 +49,7 @@ struct SweepSpec {
   std::vector<std::string> meshers = {"ccdt"};  ///< names, or absolute paths of descriptions
   std::vector<OptionAxis> options;
   std::vector<Exclusion> exclude;
-  cases::Repetitions repetitions;
+  bench::Repetitions repetitions;
   bool verify = false;
   baselines::Limits limits = {.seconds = 600};
   bool keep_meshes = false;

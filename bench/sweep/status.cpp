@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "bench/results/numbers.h"
+#include "bench/run/numbers.h"
 
 namespace ccdt::sweep {
 namespace {
@@ -21,18 +21,18 @@ std::multiset<std::string> recorded_ids(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string failure_of(const cases::MeasuredCase& measured) {
-  const cases::RunRecord& record = measured.first;
+std::string failure_of(const bench::MeasuredCase& measured) {
+  const bench::RunRecord& record = measured.first;
   return std::string(record.kind ? name_of(record.kind.value()) : name_of(record.status));
 }
 
-SweepStatus status_of(std::span<const cases::MeasuredCase> cases, const std::filesystem::path& folder) {
+SweepStatus status_of(std::span<const bench::MeasuredCase> cases, const std::filesystem::path& folder) {
   std::set<std::string> known;
   SweepStatus status;
-  for (const cases::MeasuredCase& measured : cases) {
+  for (const bench::MeasuredCase& measured : cases) {
     ++status.cases;
     known.insert(measured.id);
-    if (cases::needs_run(measured))
+    if (bench::needs_run(measured))
       ++status.missing;
     else if (!measured.failed())
       ++status.finished;
@@ -54,7 +54,7 @@ bench::Json to_json(const SweepStatus& status) {
 }
 
 std::string in_words(const SweepStatus& status) {
-  using results::with_separators;
+  using bench::with_separators;
   std::string text = with_separators(status.cases) + " cases: " + with_separators(status.finished) + " finished, " +
                      with_separators(status.failed) + " failed, " + with_separators(status.missing) + " missing\n";
   for (const auto& [kind, count] : status.failures) text += "  failed: " + kind + " " + with_separators(count) + "\n";

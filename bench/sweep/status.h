@@ -6,8 +6,8 @@
 #include <span>
 #include <string>
 
-#include "bench/cases/case.h"
-#include "bench/json.h"
+#include "bench/run/case.h"
+#include "bench/run/json.h"
 
 namespace ccdt::sweep {
 
@@ -23,11 +23,11 @@ struct SweepStatus {
 };
 
 /// The kind of a case's failure, or the status from records of older programs.
-std::string failure_of(const cases::MeasuredCase& measured);
+std::string failure_of(const bench::MeasuredCase& measured);
 
-/// \param cases   as loaded by `cases::Runner`
+/// \param cases   as loaded by `bench::Runner`
 /// \param folder  of the sweep
-SweepStatus status_of(std::span<const cases::MeasuredCase> cases, const std::filesystem::path& folder);
+SweepStatus status_of(std::span<const bench::MeasuredCase> cases, const std::filesystem::path& folder);
 
 bench::Json to_json(const SweepStatus& status);
 

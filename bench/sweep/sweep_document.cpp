@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "baselines/mesher.h"
-#include "bench/file_names.h"
+#include "bench/run/file_names.h"
 #include "engine/base/errors.h"
 
 namespace ccdt::sweep {
@@ -16,13 +16,7 @@ using bench::Json;
 constexpr bench::DocumentKind sweep_document = {"ccdt.sweep/1", "not the document of a sweep",
                                                 "give a folder that `ccdt sweep SPEC.json -o DIR` has made"};
 
-/// A file by its name relative to the folder, so that the folder can be moved; outside it, by its full path.
-std::string name_in(const std::filesystem::path& folder, const std::filesystem::path& file) {
-  const auto name = file.lexically_relative(folder);
-  return name.empty() || *name.begin() == ".." ? file.string() : name.string();
-}
-
-Json json_of(const cases::Repetitions& repetitions) {
+Json json_of(const bench::Repetitions& repetitions) {
   return {{"warm_up", repetitions.warm_up},
           {"at_least", repetitions.at_least},
           {"at_most", repetitions.at_most},
@@ -30,7 +24,7 @@ Json json_of(const cases::Repetitions& repetitions) {
 }
 
 Json json_of(const SweepCase& one, const std::filesystem::path& folder) {
-  Json input = {{"name", one.input.name}, {"file", name_in(folder, one.input.file)}};
+  Json input = {{"name", one.input.name}, {"file", bench::name_in(folder, one.input.file)}};
   if (!one.input.model.empty()) {
     input["model"] = one.input.model;
     input["edge_length"] = one.input.edge_length;
@@ -41,7 +35,7 @@ Json json_of(const SweepCase& one, const std::filesystem::path& folder) {
                {"name", one.asked.name},
                {"group", one.asked.group},
                {"input", std::move(input)},
-               {"mesher", one.mesher()}};
+               {"mesher", one.mesher}};
   if (baselines::is_mesher_description(one.asked.mesher)) json["mesher_file"] = one.asked.mesher;
   json["options"] = std::move(options);
   json["repetitions"] = json_of(one.asked.repetitions);
@@ -59,9 +53,9 @@ SweepCase case_from(const Json& json, const SweepSpec& common, const std::filesy
   bench::check_file_name(one.id);
   json.at("name").get_to(one.asked.name);
   json.at("group").get_to(one.asked.group);
-  one.asked.mesher = json.value("mesher_file", json.at("mesher").get<std::string>());
+  json.at("mesher").get_to(one.mesher);
+  one.asked.mesher = json.value("mesher_file", one.mesher);
   for (const auto& [name, value] : json.at("options").items()) one.options.emplace_back(name, value.get<std::string>());
-  one.asked.options = words_for(one.asked.mesher, one.options);
   const Json& repetitions = json.at("repetitions");
   repetitions.at("warm_up").get_to(one.asked.repetitions.warm_up);
   repetitions.at("at_least").get_to(one.asked.repetitions.at_least);
@@ -81,10 +75,10 @@ std::filesystem::path sweep_file(const std::filesystem::path& folder) {
 }
 
 void write_sweep(const std::filesystem::path& folder, const SweepSpec& spec,
-                 const std::vector<cases::Identity>& identities, std::span<const SweepCase> cases) {
+                 const std::vector<bench::Identity>& identities, std::span<const SweepCase> cases) {
   const auto whole = std::filesystem::absolute(folder).lexically_normal();
   Json json = to_json(spec);
-  json.update(cases::identities_json(identities));
+  json.update(bench::identities_json(identities));
   json["cases"] = Json::array();
   for (const SweepCase& one : cases) json["cases"].push_back(json_of(one, whole));
   bench::write_json(json, sweep_file(folder));
@@ -98,10 +92,11 @@ SweepDocument read_sweep(const std::filesystem::path& folder) {
     common.limits = limits_from(json);
     json.at("verify").get_to(common.verify);
     json.at("keep_meshes").get_to(common.keep_meshes);
+    json.at("name").get_to(document.name);
     json.at("seed").get_to(document.seed);
-    document.identities = {json.at("identity").get<cases::Identity>()};
+    document.identities = {json.at("identity").get<bench::Identity>()};
     for (const Json& other : json.value("mixed_with", Json::array()))
-      document.identities.push_back(other.get<cases::Identity>());
+      document.identities.push_back(other.get<bench::Identity>());
     for (const Json& one : json.at("cases")) document.cases.push_back(case_from(one, common, whole));
   });
   return document;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/identity.h"
+#include "bench/run/identity.h"
 #include "bench/sweep/expand.h"
 #include "bench/sweep/spec.h"
 
@@ -13,9 +13,10 @@ namespace ccdt::sweep {
 
 /// The document of a sweep's folder: DIR/sweep.json, schema ccdt.sweep/1.
 struct SweepDocument {
+  std::string name;
   std::uint64_t seed = 1;                   ///< of the spec
-  std::vector<cases::Identity> identities;  ///< identities whose records count; the first is that of the last call
-  std::vector<SweepCase> cases;             ///< ready for `cases::Runner`
+  std::vector<bench::Identity> identities;  ///< identities whose records count; the first is that of the last call
+  std::vector<SweepCase> cases;             ///< without words for the command line; `asked_of` adds them
 };
 
 /// The document of a folder.
@@ -23,7 +24,7 @@ std::filesystem::path sweep_file(const std::filesystem::path& folder);
 
 /// \throw OutputError
 void write_sweep(const std::filesystem::path& folder, const SweepSpec& spec,
-                 const std::vector<cases::Identity>& identities, std::span<const SweepCase> cases);
+                 const std::vector<bench::Identity>& identities, std::span<const SweepCase> cases);
 
 /// \throw InputError  it is missing or invalid
 SweepDocument read_sweep(const std::filesystem::path& folder);

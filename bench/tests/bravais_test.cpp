@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "bench/bravais/bravais_lattices.h"
+#include "bench/experiments/bravais/bravais_lattices.h"
 
 namespace ccdt {
 namespace {

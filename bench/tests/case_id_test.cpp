@@ -4,11 +4,11 @@
 #include <fstream>
 
 #include "baselines/external_program.h"
-#include "bench/cases/identity.h"
+#include "bench/run/identity.h"
 
 // The id of a case is a hash of all that its caller declares, and of nothing else.
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
 /// Files in a folder of their own, which is also the working folder.
@@ -147,4 +147,4 @@ TEST_F(CaseIds, DependOnTheFilesThatTheDescriptionNames) {
 }
 
 }  // namespace
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/conforming/conforming_delaunay.h"
-#include "bench/conforming/smallest_spheres.h"
+#include "bench/experiments/conforming/conforming_delaunay.h"
+#include "bench/experiments/conforming/smallest_spheres.h"
 #include "bench/experiments/existence_experiments.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/plc/build_plc.h"

@@ -33,8 +33,8 @@ std::vector<double> numbers_in(const results::ResultTable& table, std::string_vi
 }
 
 /// A run whose front made these tetrahedra with these counts.
-cases::MeasuredCase front_run(double tetrahedra, double candidates, double visibility_tests) {
-  cases::MeasuredCase measured;
+bench::MeasuredCase front_run(double tetrahedra, double candidates, double visibility_tests) {
+  bench::MeasuredCase measured;
   measured.id = "0123456789abcdef";
   bench::RunRecord record;
   record.mesher.name = "ccdt";

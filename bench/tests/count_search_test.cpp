@@ -1,4 +1,4 @@
-#include "bench/count_search.h"
+#include "bench/experiments/count_search.h"
 
 #include <gtest/gtest.h>
 

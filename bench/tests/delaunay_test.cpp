@@ -138,7 +138,7 @@ class DelaunayRuns : public testing::Test {
   }
 
   static results::ExperimentResult measured(const experiments::ExperimentOptions& options) {
-    cases::Runner runner({.program = options.program, .folder = options.folder});
+    bench::Runner runner({.program = options.program, .folder = options.folder});
     return experiments::measure_delaunay(options, runner);
   }
 

@@ -5,9 +5,9 @@
 
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/registry.h"
+#include "bench/experiments/small_plcs/trial.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
-#include "bench/small_plcs/trial.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {
@@ -98,7 +98,7 @@ experiments::InteriorRow interior_row(const char* rule, Lattice lattice, std::ui
   bench::RunRecord run;
   run.counts.interior_vertices = placed;
   run.counts.dropped_interior_vertices = dropped;
-  cases::add_run(row.measured, run);
+  bench::add_run(row.measured, run);
   return row;
 }
 

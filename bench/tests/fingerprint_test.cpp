@@ -1,4 +1,4 @@
-#include "bench/fingerprint.h"
+#include "bench/run/fingerprint.h"
 
 #include <gtest/gtest.h>
 

@@ -139,8 +139,8 @@ class InstructionsTest : public testing::Test {
 
   Recording record(const std::filesystem::path& program, const std::string& options) const {
     Recording recording;
-    std::vector<cases::Case> cases(3);
-    for (cases::Case& c : cases) c.input = input();
+    std::vector<bench::Case> cases(3);
+    for (bench::Case& c : cases) c.input = input();
     cases[0].name = "cube";
     cases[0].options = {"--lattice", options};
     cases[1].name = "other mesher";

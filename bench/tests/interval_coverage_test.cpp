@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/case.h"
-#include "bench/median_interval.h"
+#include "bench/run/case.h"
+#include "bench/run/median_interval.h"
 
 /// How often intervals contain the truth, with the rule by which the runner stops. The seeds are fixed.
 namespace ccdt {
@@ -18,7 +18,7 @@ namespace {
 
 using Random = std::mt19937_64;
 using bench::Estimate;
-using cases::Repetitions;
+using bench::Repetitions;
 
 constexpr int simulations = 5000;  // the standard deviation of a coverage of 95% is 0.31%
 constexpr double least_coverage = 0.94;
@@ -234,8 +234,8 @@ TEST(Coverage, ACaseStopsOnlyAtALook) {
 }
 
 TEST(Coverage, AFixedNumberOfRunsIsItsOnlyLook) {
-  EXPECT_EQ(cases::looks_of({.at_least = 6, .at_most = 60}), std::vector<int>{6});
-  EXPECT_EQ(cases::looks_of({.at_least = 3, .at_most = 3}), std::vector<int>{3});
+  EXPECT_EQ(bench::looks_of({.at_least = 6, .at_most = 60}), std::vector<int>{6});
+  EXPECT_EQ(bench::looks_of({.at_least = 3, .at_most = 3}), std::vector<int>{3});
 }
 
 TEST(Coverage, ACaseStopsByTheIntervalThatItShows) {

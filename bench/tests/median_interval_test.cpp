@@ -1,4 +1,4 @@
-#include "bench/median_interval.h"
+#include "bench/run/median_interval.h"
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,7 @@ QualityRow row(const experiments::StudyPlan& plan, const std::string& variant, d
   run.counts.tetrahedra = 10000;
   run.quality.r = {1, mean_r, mean_r, 0.5 * (mean_r + worst_r), worst_r, {{1, 1.1, 1.2, 1000}, {9000, 999, 1}}};
   run.quality.dihedral_degrees = {dihedral, 180 - dihedral, {{0, 5, 10, 180}, {0, 6, 59994}}};
-  cases::add_run(made.measured, run);
+  bench::add_run(made.measured, run);
   return made;
 }
 

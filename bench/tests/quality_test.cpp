@@ -1,4 +1,4 @@
-#include "bench/quality.h"
+#include "bench/run/quality.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <utility>
 
-#include "bench/surface_limit.h"
+#include "bench/run/surface_limit.h"
 
 namespace ccdt {
 namespace {

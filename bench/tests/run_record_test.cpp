@@ -1,4 +1,4 @@
-#include "bench/run_record.h"
+#include "bench/run/run_record.h"
 
 #include <gtest/gtest.h>
 

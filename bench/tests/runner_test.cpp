@@ -1,4 +1,4 @@
-#include "bench/cases/runner.h"
+#include "bench/run/runner.h"
 
 #include <gtest/gtest.h>
 
@@ -9,12 +9,12 @@
 #include <set>
 
 #include "baselines/external_program.h"
-#include "bench/cases/run_case.h"
-#include "bench/json.h"
-#include "bench/median_interval.h"
+#include "bench/run/json.h"
+#include "bench/run/median_interval.h"
+#include "bench/run/run_case.h"
 #include "engine/base/errors.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
 /// Stands for `ccdt mesh`: writes the content of the input as the seconds of its record, or fails if that is not a
@@ -421,4 +421,4 @@ TEST_F(RunnerTest, MixedRecordsOfThisBinaryComeFirst) {
 }
 
 }  // namespace
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

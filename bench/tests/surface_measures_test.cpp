@@ -1,4 +1,4 @@
-#include "bench/surface_measures.h"
+#include "bench/run/surface_measures.h"
 
 #include <gtest/gtest.h>
 

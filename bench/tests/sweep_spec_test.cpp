@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "baselines/external_program.h"
-#include "bench/cases/identity.h"
+#include "bench/run/identity.h"
 #include "bench/sweep/expand.h"
 #include "bench/sweep/spec.h"
 #include "bench/sweep/sweep_document.h"
@@ -245,7 +245,7 @@ TEST_F(SweepSpecs, MakeOneCaseOfOptionsThatAMesherDoesNotHave) {
       expand(spec_with({{"meshers", {"ccdt", "other.json"}},
                         {"options", {{"locator", {"cavity", "octree", "grid"}}, {"edge-length", {0.5, 0.25}}}}}));
   ASSERT_EQ(cases.size(), 8u);
-  EXPECT_EQ(cases[6].mesher(), "other");
+  EXPECT_EQ(cases[6].mesher, "other");
   EXPECT_EQ(cases[6].asked.options, (Texts{"--edge-length", "0.5"}));
   EXPECT_EQ(cases[7].asked.options, (Texts{"--edge-length", "0.25"}));
   // A default value is not passed to the mesher, but it is in reports.
@@ -255,9 +255,9 @@ TEST_F(SweepSpecs, MakeOneCaseOfOptionsThatAMesherDoesNotHave) {
 }
 
 TEST_F(SweepSpecs, IdentifyCasesWhateverTheOrderOfTheOptions) {
-  cases::FileHashes hashes;
+  bench::FileHashes hashes;
   const auto id = [&](const Json& options) {
-    return cases::id_of(expand(spec_with({{"options", options}})).at(0).asked, {}, hashes);
+    return bench::id_of(expand(spec_with({{"options", options}})).at(0).asked, {}, hashes);
   };
   EXPECT_EQ(id({{"lattice", "bcc"}, {"locator", "grid"}}), id({{"locator", "grid"}, {"lattice", "bcc"}}));
   EXPECT_EQ(id({{"lattice", "fcc"}}), id(Json::object()));
@@ -276,7 +276,7 @@ TEST_F(SweepSpecs, AreKeptInTheFolderWithTheirCases) {
                                {"keep_meshes", true}});
   auto cases = expand(spec);
   for (std::size_t i = 0; i < cases.size(); ++i) cases[i].id = std::to_string(i);
-  const std::vector<cases::Identity> identities = {{{"ccdt.binary", "b"}}, {{"ccdt.binary", "a"}}};
+  const std::vector<bench::Identity> identities = {{{"ccdt.binary", "b"}}, {{"ccdt.binary", "a"}}};
   std::filesystem::create_directories(folder() / "out");
   sweep::write_sweep(folder() / "out", read(spec), identities, cases);
 
@@ -284,8 +284,9 @@ TEST_F(SweepSpecs, AreKeptInTheFolderWithTheirCases) {
   EXPECT_EQ(document.seed, 12u);
   EXPECT_EQ(document.identities, identities);
   ASSERT_EQ(document.cases.size(), cases.size());
+  const std::vector<bench::Case> asked = sweep::asked_of(document.cases);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const cases::Case &then = cases[i].asked, &now = document.cases[i].asked;
+    const bench::Case &then = cases[i].asked, &now = asked[i];
     EXPECT_EQ(document.cases[i].id, cases[i].id);
     EXPECT_EQ(document.cases[i].options, cases[i].options);
     EXPECT_EQ(now.name, then.name);

@@ -12,26 +12,26 @@
 namespace ccdt {
 namespace {
 
-using cases::MeasuredCase;
+using bench::MeasuredCase;
 
-cases::RunRecord good_run(double seconds = 0, std::uint64_t bytes = 0) {
-  cases::RunRecord record;
+bench::RunRecord good_run(double seconds = 0, std::uint64_t bytes = 0) {
+  bench::RunRecord record;
   record.costs.mesh_seconds = seconds;
   record.peak_rss_bytes = bytes;
   return record;
 }
 
-cases::RunRecord failed_run(baselines::FailureKind kind) {
-  cases::RunRecord record;
+bench::RunRecord failed_run(baselines::FailureKind kind) {
+  bench::RunRecord record;
   record.set_failure(kind, "why");
   return record;
 }
 
-MeasuredCase measured(const std::string& id, const std::vector<cases::RunRecord>& runs, int repetitions = 1) {
+MeasuredCase measured(const std::string& id, const std::vector<bench::RunRecord>& runs, int repetitions = 1) {
   MeasuredCase one;
   one.id = id;
   one.asked.repetitions.at_least = one.asked.repetitions.at_most = repetitions;
-  for (const cases::RunRecord& run : runs) add_run(one, run);
+  for (const bench::RunRecord& run : runs) add_run(one, run);
   return one;
 }
 
@@ -64,9 +64,9 @@ TEST(SweepStatus, OfAFolderThatIsNotThereHasNoRuns) {
 class SweepEstimates : public testing::Test {
  protected:
   /// A cube, and the cost of its run if it is finished.
-  void add(const std::string& mesher, double edge_length, const std::vector<cases::RunRecord>& runs = {}) {
+  void add(const std::string& mesher, double edge_length, const std::vector<bench::RunRecord>& runs = {}) {
     sweep::SweepCase one;
-    one.asked.mesher = mesher;
+    one.asked.mesher = one.mesher = mesher;
     one.input = {"cube", "/nowhere/cube.poly", "cube", edge_length};
     cases_.push_back(one);
     measured_.push_back(measured(std::to_string(cases_.size()), runs));

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/surface_measures.h"
+#include "bench/run/surface_measures.h"
 #include "engine/base/errors.h"
 #include "engine/plc/build_plc.h"
 #include "models/stars.h"
@@ -75,7 +75,7 @@ TEST(ShellSplitting, EndsForAllStars) {
 experiments::TerminationRow row(const char* group, double degrees, Protection protection) {
   experiments::TerminationRow made{{}, group, group, degrees, degrees, protection};
   made.measured.asked.name = group;
-  cases::add_run(made.measured, {});
+  bench::add_run(made.measured, {});
   return made;
 }
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "bench/experiments/existence_experiments.h"
-#include "bench/small_plcs/small_plc.h"
+#include "bench/experiments/small_plcs/small_plc.h"
 
 namespace ccdt {
 namespace {

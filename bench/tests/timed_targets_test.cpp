@@ -43,7 +43,7 @@ class TimedTargets : public testing::Test {
     return last;
   }
 
-  cases::Case part() const {
+  bench::Case part() const {
     const auto input = folder_.path() / "part.off";
     std::ofstream(input) << "OFF";
     return {.name = "part", .group = "parts", .input = input, .options = {"--lattice", "bcc"}};
@@ -59,7 +59,7 @@ TEST_F(TimedTargets, ACaseOfASweepIsTimedByItsReport) {
   Rules rules;
   rules.special.push_back({"other", rules.time});
   rules.special.back().time.figure = "seconds.delaunay";
-  cases::Case other = part();
+  bench::Case other = part();
   other.name = "other";
   const auto targets = sweep_targets(programs, std::vector{part(), other}, rules, folder_.path());
   ASSERT_EQ(targets.size(), 2U);

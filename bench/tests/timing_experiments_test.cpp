@@ -40,9 +40,9 @@ std::vector<std::string> texts(const results::ExperimentResult& result, std::str
 }
 
 /// A case of a mesher with a warm-up that took a minute, and counted runs that took these seconds.
-cases::MeasuredCase measured_case(const std::string& mesher, const std::vector<StageCosts>& seconds,
+bench::MeasuredCase measured_case(const std::string& mesher, const std::vector<StageCosts>& seconds,
                                   const MeshCounts& counts) {
-  cases::MeasuredCase measured;
+  bench::MeasuredCase measured;
   measured.id = "0123456789abcdef";
   measured.asked.name = "the case of " + mesher;
   measured.asked.mesher = mesher;
@@ -74,7 +74,7 @@ MeshCounts counts_with(std::uint64_t vertices) {
   return counts;
 }
 
-void fail(cases::MeasuredCase& measured) {
+void fail(bench::MeasuredCase& measured) {
   bench::RunRecord record = measured.first;
   record.set_failure(baselines::FailureKind::timeout, "limit of 600 s");
   add_run(measured, record);
@@ -205,7 +205,7 @@ std::vector<experiments::LocatorsRow> locators(experiments::SurfaceKind kind, co
   for (const LocatorKind locator : {LocatorKind::grid, LocatorKind::octree, LocatorKind::cavity}) {
     std::vector<StageCosts> seconds;
     for (const double s : twice(octree)) seconds.push_back(stages(1, locator == LocatorKind::octree ? s : 1));
-    rows.push_back({{measured_case("ccdt", seconds, counts_with(1000)), cases::stage_seconds(Stage::front)},
+    rows.push_back({{measured_case("ccdt", seconds, counts_with(1000)), results::stage_seconds(Stage::front)},
                     "part",
                     kind,
                     false,
@@ -400,7 +400,7 @@ TEST(TimedCases, AreThoseOfWhichAllRunsAreWithinTheBudget) {
   options.tetrahedra = 20000;
   const double budget = experiments::timed_case(options, "", {}).repetitions.budget_seconds;
   const auto is_short = [&](double seconds, bool fails = false) {
-    cases::MeasuredCase measured;
+    bench::MeasuredCase measured;
     bench::RunRecord record;
     record.costs.mesh_seconds = seconds;
     add_run(measured, record);
@@ -415,10 +415,10 @@ TEST(TimedCases, AreThoseOfWhichAllRunsAreWithinTheBudget) {
 TEST(TimedCases, AreRepeatedUntilTheyAreKnown) {
   experiments::ExperimentOptions options;
   options.tetrahedra = 20000;
-  const cases::Case single = experiments::single_case(options, "name", "ccdt", "part.off", {});
+  const bench::Case single = experiments::single_case(options, "name", "ccdt", "part.off", {});
   EXPECT_TRUE(single.verify);
   EXPECT_EQ(single.repetitions.at_most, 1);
-  const cases::Case timed = experiments::timed_case(options, "group", single, 0.02, experiments::cdt_seconds);
+  const bench::Case timed = experiments::timed_case(options, "group", single, 0.02, experiments::cdt_seconds);
   EXPECT_EQ(timed.repetitions.warm_up, 1);
   EXPECT_EQ(timed.repetitions.at_least, options.runs);
   EXPECT_GE(timed.repetitions.at_most, 60);

@@ -1,4 +1,4 @@
-#include "bench/cases/verify_run.h"
+#include "bench/run/verify_run.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "baselines/external_program.h"
 
-namespace ccdt::cases {
+namespace ccdt::bench {
 namespace {
 
 /// Stands for `ccdt verify`: lists its arguments, and reports what a file says.
@@ -126,4 +126,4 @@ TEST_F(VerifyRun, AcceptsTheSurfaceOfAMesherThatMakesItsOwn) {
 }
 
 }  // namespace
-}  // namespace ccdt::cases
+}  // namespace ccdt::bench

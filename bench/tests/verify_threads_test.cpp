@@ -8,7 +8,7 @@
 
 #include "bench/tests/verify_cases.h"
 #include "engine/base/parallel.h"
-#include "engine/tests/sanitized.h"
+#include "engine/tests/shared/sanitized.h"
 
 // What the verifier finds, its examples and their order are the same on any number of threads.
 

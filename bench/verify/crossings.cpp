@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "bench/verify/exact.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/parallel.h"
+#include "engine/geometry/box_tree.h"
 
 namespace ccdt::verify {
 namespace {

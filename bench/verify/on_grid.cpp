@@ -3,13 +3,13 @@
 #include <array>
 #include <map>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
 namespace ccdt::verify {
 
 OnGrid put_on_grid(const plc::InputPlc& input, const mesh::TetMesh& mesh) {
   OnGrid result{input, mesh};
-  const numbers::DyadicGrid grid = numbers::make_grid(input.vertices);
+  const DyadicGrid grid = make_grid(input.vertices);
   std::map<std::array<double, 3>, Point3> rounded;
   for (Point3& p : result.input.vertices) p = rounded.try_emplace(as_array(p), grid.unit * grid.snap(p)).first->second;
   for (Point3& p : result.mesh.vertices) {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "bench/verify/topology.h"
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/input.h"
 
 namespace ccdt::verify {

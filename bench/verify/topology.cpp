@@ -1,5 +1,6 @@
 #include "bench/verify/topology.h"
 
+#include <algorithm>
 #include <ranges>
 #include <utility>
 

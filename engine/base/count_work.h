@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -52,7 +51,7 @@ std::size_t bytes_of(const List&... lists) {
 
 /// Notes that this many bytes are in use.
 inline void note_bytes(std::size_t bytes) {
-  work_done.peak_bytes = std::max<std::uint64_t>(work_done.peak_bytes, bytes);
+  if (bytes > work_done.peak_bytes) work_done.peak_bytes = bytes;
 }
 
 }  // namespace ccdt

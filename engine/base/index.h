@@ -2,7 +2,6 @@
 
 #include <compare>
 #include <cstdint>
-#include <functional>
 
 namespace ccdt {
 
@@ -33,8 +32,3 @@ using RegionId = Index<struct RegionTag>;
 using CellId = Index<struct CellTag>;
 
 }  // namespace ccdt
-
-template <class Tag>
-struct std::hash<ccdt::Index<Tag>> {
-  std::size_t operator()(ccdt::Index<Tag> i) const noexcept { return std::hash<std::uint32_t>()(i.value); }
-};

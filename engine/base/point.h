@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -38,10 +37,10 @@ inline double length(const Point3& a) {
   return std::sqrt(squared_length(a));
 }
 inline Point3 componentwise_min(const Point3& a, const Point3& b) {
-  return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+  return {b.x < a.x ? b.x : a.x, b.y < a.y ? b.y : a.y, b.z < a.z ? b.z : a.z};
 }
 inline Point3 componentwise_max(const Point3& a, const Point3& b) {
-  return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+  return {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
 }
 inline std::array<double, 3> as_array(const Point3& a) {
   return {a.x, a.y, a.z};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -10,7 +9,7 @@ namespace ccdt {
 /// the compiler and the load. If they change, the algorithm has changed. There are two exceptions: a time limit for
 /// improvement, and several threads, where vertices are inserted in another order.
 struct Work {
-  // ---- Signs of determinants (engine/numbers)
+  // ---- Signs of determinants (engine/geometry)
   std::uint64_t orient3d_filter_failures = 0;  ///< `orient3d` that floating point could not decide
   std::uint64_t insphere_filter_failures = 0;  ///< `insphere` that floating point could not decide
   std::uint64_t centroid_filter_failures = 0;  ///< `orient3d_centroid` that floating point could not decide
@@ -136,8 +135,11 @@ inline constexpr auto work_counts = std::to_array<WorkCount>({
 static_assert(sizeof(Work) == work_counts.size() * sizeof(std::uint64_t), "every count has its name");
 
 inline Work& Work::operator+=(const Work& more) {
-  for (const WorkCount& c : work_counts)
-    this->*c.count = c.kind == WorkKind::sum ? this->*c.count + more.*c.count : std::max(this->*c.count, more.*c.count);
+  for (const auto& [name, count, kind] : work_counts)
+    if (kind == WorkKind::sum)
+      this->*count += more.*count;
+    else if (more.*count > this->*count)
+      this->*count = more.*count;
   return *this;
 }
 

@@ -9,7 +9,7 @@
 #include "engine/base/parallel.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insert_vertices.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {
@@ -29,9 +29,9 @@ void put_simplex_first(std::span<const Point3> points, std::vector<std::uint32_t
   const auto at = [&](std::size_t i) -> const Point3& { return points[order[i]]; };
   bring(0, [](const Point3&) { return true; });
   bring(1, [&](const Point3& p) { return !(p == at(0)); });
-  bring(2, [&](const Point3& p) { return !numbers::collinear(at(0), at(1), p); });
-  bring(3, [&](const Point3& p) { return numbers::orient3d(at(0), at(1), at(2), p) != 0; });
-  if (numbers::orient3d(at(0), at(1), at(2), at(3)) < 0) std::swap(order[0], order[1]);
+  bring(2, [&](const Point3& p) { return !collinear(at(0), at(1), p); });
+  bring(3, [&](const Point3& p) { return orient3d(at(0), at(1), at(2), p) != 0; });
+  if (orient3d(at(0), at(1), at(2), at(3)) < 0) std::swap(order[0], order[1]);
 }
 
 /// The indices of the points in the order of insertion.
@@ -146,7 +146,7 @@ std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, s
     for (std::uint32_t f = 0; f < 4 && exit == 4; ++f) {
       if (cell.vertices[f] == a || cell.neighbors[f] == from) continue;
       const auto [u, v, w] = corners_of_face(cell.vertices, f);
-      if (numbers::orient3d(d.point(u), d.point(v), d.point(w), p) < 0) exit = f;
+      if (orient3d(d.point(u), d.point(v), d.point(w), p) < 0) exit = f;
     }
     if (exit == 4) return here;
     from = face_code(here, exit);

@@ -10,7 +10,7 @@
 #include "engine/base/index.h"
 #include "engine/base/progress.h"
 #include "engine/base/raw_vector.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::delaunay {
 
@@ -27,7 +27,7 @@ struct alignas(32) DelaunayVertex {
 using DelaunayVertices = RawVector<DelaunayVertex>;
 
 /// The coordinates, and in the fourth lane anything.
-CCDT_ALWAYS_INLINE void load(const DelaunayVertex& v, numbers::Lanes& result) {
+CCDT_ALWAYS_INLINE void load(const DelaunayVertex& v, Lanes& result) {
   static_assert(sizeof v == sizeof result);
   std::memcpy(&result, &v, sizeof result);
 }

@@ -8,7 +8,7 @@
 #include "engine/base/box.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::delaunay {
 namespace {

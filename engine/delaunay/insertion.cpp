@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {
@@ -42,7 +42,7 @@ Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionP
 /// \tparam in_part  may there be shared cells? A cell that is not shared is of the own part.
 template <bool in_part>
 CCDT_ALWAYS_INLINE std::uint32_t Insertion::walk(std::uint32_t start) {
-  numbers::Lanes a, b, c, d, p;
+  Lanes a, b, c, d, p;
   load(d_.vertices[v_], p);
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   bool is_shared = in_part && parts_.is_shared(d_.cells[here]);
@@ -52,7 +52,7 @@ CCDT_ALWAYS_INLINE std::uint32_t Insertion::walk(std::uint32_t start) {
     const auto& v = cell.vertices;
     if (v[3] == ghost_vertex) return here;
     load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
-    auto [beyond, unknown] = numbers::faces_around_filter(a, b, c, d, p);
+    auto [beyond, unknown] = faces_around_filter(a, b, c, d, p);
     unknown &= allowed;
     if (is_shared) {
       const unsigned crossed = faces_to_cross(cell);
@@ -62,7 +62,7 @@ CCDT_ALWAYS_INLINE std::uint32_t Insertion::walk(std::uint32_t start) {
     while (beyond == 0 && unknown != 0) {
       const unsigned face = first_face(unknown);
       const auto [x, y, z] = corners_of_face(v, face);
-      if (numbers::orient3d(d_.point(x), d_.point(y), d_.point(z), p_) < 0) beyond = 1u << face;
+      if (orient3d(d_.point(x), d_.point(y), d_.point(z), p_) < 0) beyond = 1u << face;
       unknown &= ~(1u << face);
     }
     if (beyond == 0) return here;
@@ -117,18 +117,18 @@ CCDT_ALWAYS_INLINE unsigned Insertion::conflicting_neighbors(const Cell& cell, u
     apex[f] = apex[f] == ghost_vertex ? v_ : apex[f];
   }
   const auto& v = cell.vertices;
-  numbers::Lanes a, b, c, d, oa, ob, oc, od, p;
+  Lanes a, b, c, d, oa, ob, oc, od, p;
   load(d_.vertices[v[0]], a), load(d_.vertices[v[1]], b), load(d_.vertices[v[2]], c), load(d_.vertices[v[3]], d);
   load(d_.vertices[apex[0]], oa), load(d_.vertices[apex[1]], ob);
   load(d_.vertices[apex[2]], oc), load(d_.vertices[apex[3]], od);
   load(d_.vertices[v_], p);
-  const numbers::SpheresAround spheres = numbers::spheres_around_filter(a, b, c, d, oa, ob, oc, od, p, open & ~ghosts);
+  const SpheresAround spheres = spheres_around_filter(a, b, c, d, oa, ob, oc, od, p, open & ~ghosts);
   inside = spheres.inside;
   if (ties_ != Ties::greatest_rank)
     add(
-        spheres.on, [&](const Cell& next) { return conflicts_in_doubt(next, numbers::Sign::zero); }, inside);
+        spheres.on, [&](const Cell& next) { return conflicts_in_doubt(next, Sign::zero); }, inside);
   add(
-      spheres.unknown, [&](const Cell& next) { return conflicts_in_doubt(next, numbers::Sign::unknown); }, inside);
+      spheres.unknown, [&](const Cell& next) { return conflicts_in_doubt(next, Sign::unknown); }, inside);
   add(
       ghosts & open, [&](const Cell& next) { return ghost_conflicts(next); }, inside);
   return inside;
@@ -243,39 +243,37 @@ std::uint32_t Insertion::fill_cavity() {
 bool Insertion::conflicts(const Cell& cell) const {
   const auto& v = cell.vertices;
   if (v[3] == ghost_vertex) return ghost_conflicts(cell);
-  const numbers::Sign sign =
-      numbers::insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
-  if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
+  const Sign sign = insphere_filter(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p_);
+  if (sign == Sign::plus || sign == Sign::minus) return sign == Sign::plus;
   return conflicts_in_doubt(cell, sign);
 }
 
 /// A new vertex with the greatest rank is outside a sphere on which it lies.
 ///
 /// \param sign  zero or unknown
-bool Insertion::conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const {
+bool Insertion::conflicts_in_doubt(const Cell& cell, Sign sign) const {
   const auto& v = cell.vertices;
   const Point3 &a = d_.point(v[0]), &b = d_.point(v[1]), &c = d_.point(v[2]), &d = d_.point(v[3]);
-  const int exact = sign == numbers::Sign::zero ? 0 : numbers::insphere_exactly(a, b, c, d, p_);
+  const int exact = sign == Sign::zero ? 0 : insphere_exactly(a, b, c, d, p_);
   if (exact != 0 || ties_ == Ties::greatest_rank) return exact > 0;
   const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
   const std::array ranks = {rank(v[0]), rank(v[1]), rank(v[2]), rank(v[3]), rank(v_)};
   if (*std::ranges::max_element(ranks) == ranks[4]) return false;
-  return numbers::insphere_tie(a, b, c, d, p_, ranks) > 0;
+  return insphere_tie(a, b, c, d, p_, ranks) > 0;
 }
 
 /// A ghost's sphere is the outer half-space of its hull face and, in the plane of the face, the circumcircle.
 bool Insertion::ghost_conflicts(const Cell& ghost) const {
   const Point3 &a = d_.point(ghost.vertices[0]), &b = d_.point(ghost.vertices[1]), &c = d_.point(ghost.vertices[2]);
-  const int side = numbers::orient3d(a, b, c, p_);
+  const int side = orient3d(a, b, c, p_);
   if (side != 0) return side > 0;
-  if (ties_ == Ties::greatest_rank) return numbers::incircle(a, b, c, p_) > 0;
+  if (ties_ == Ties::greatest_rank) return incircle(a, b, c, p_) > 0;
   const std::uint32_t inner = ghost.neighbors[3];
   const Point3& apex = d_.point(d_.cells[cell_of(inner)].vertices[face_of(inner)]);
   const auto rank = [&](std::uint32_t u) { return d_.vertices[u].rank; };
   // The apex is below the ghost's triangle: seen from it the triangle is a, c, b.
-  return numbers::incircle_perturbed(
-             a, c, b, apex, p_, {rank(ghost.vertices[0]), rank(ghost.vertices[2]), rank(ghost.vertices[1]), rank(v_)}) >
-         0;
+  return incircle_perturbed(a, c, b, apex, p_,
+                            {rank(ghost.vertices[0]), rank(ghost.vertices[2]), rank(ghost.vertices[1]), rank(v_)}) > 0;
 }
 
 bool Insertion::has_room() {

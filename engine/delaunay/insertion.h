@@ -9,7 +9,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::delaunay {
 
@@ -140,7 +140,7 @@ class Insertion {
   bool grow_cavity(std::uint32_t first);
   unsigned conflicting_neighbors(const Cell& cell, unsigned open) const;
   bool conflicts(const Cell& cell) const;
-  bool conflicts_in_doubt(const Cell& cell, numbers::Sign sign) const;
+  bool conflicts_in_doubt(const Cell& cell, Sign sign) const;
   bool ghost_conflicts(const Cell& ghost) const;
   void choose_places();
   std::uint32_t make_cell(const CavityFace& face, std::uint32_t place) const;

@@ -1,6 +1,8 @@
 #include "engine/delaunay/sphere_pencil.h"
 
-#include "engine/numbers/predicates.h"
+#include <algorithm>
+
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {
@@ -12,7 +14,7 @@ Point3 magnitudes(const Point3& p) {
 }
 
 double largest(const Point3& p) {
-  return numbers::filter::larger(numbers::filter::larger(p.x, p.y), p.z);
+  return filter::larger(filter::larger(p.x, p.y), p.z);
 }
 
 /// The sums of magnitudes in a cross product, for its error bound.
@@ -58,7 +60,7 @@ SpherePencil::SpherePencil(std::span<const GridVertex> vertices, const std::arra
       normal_terms_(cross_magnitudes(b_, c_)),
       bb_(squared_length(b_)),
       cc_(squared_length(c_)),
-      size_(numbers::filter::larger(largest(magnitudes(b_)), largest(magnitudes(c_)))),
+      size_(filter::larger(largest(magnitudes(b_)), largest(magnitudes(c_)))),
       normal_error_(8 * unit * largest(normal_terms_)),
       normal_length_(std::sqrt(squared_length(normal_))) {
   find_circle();
@@ -106,11 +108,10 @@ void SpherePencil::consider_first(VertexBatch& batch) {
 bool SpherePencil::is_better(std::uint32_t v) const {
   if (v == apex_ || v == face_[0] || v == face_[1] || v == face_[2]) return false;
   const GridVertex &a = v_[face_[0]], &b = v_[face_[1]], &c = v_[face_[2]], &e = v_[v];
-  if (numbers::orient3d(a.point, b.point, c.point, e.point) <= 0) return false;
+  if (orient3d(a.point, b.point, c.point, e.point) <= 0) return false;
   if (apex_ == ghost_vertex) return true;
   const GridVertex& d = v_[apex_];
-  return numbers::insphere_perturbed(a.point, b.point, c.point, d.point, e.point,
-                                     {a.rank, b.rank, c.rank, d.rank, e.rank}) > 0;
+  return insphere_perturbed(a.point, b.point, c.point, d.point, e.point, {a.rank, b.rank, c.rank, d.rank, e.rank}) > 0;
 }
 
 SpherePencil::Cap SpherePencil::cap() const {

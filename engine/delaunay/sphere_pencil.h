@@ -8,7 +8,7 @@
 #include <span>
 
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::delaunay {
 

@@ -10,7 +10,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/delaunay/fourth_vertex.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
 namespace {
@@ -44,7 +44,7 @@ class HullWrapping {
     if (inner == none) return {};
     std::vector<std::uint32_t> plane;
     for (std::uint32_t e = 0; e < v_.size(); ++e)
-      if (numbers::orient3d(at(a), at(b), at(c), at(e)) == 0) plane.push_back(e);
+      if (orient3d(at(a), at(b), at(c), at(e)) == 0) plane.push_back(e);
     const std::uint32_t q = along_boundary(plane, a, inner);
     return std::array{a, q, above_edge(plane, a, q, inner)};
   }
@@ -64,7 +64,7 @@ class HullWrapping {
     std::uint32_t b = none;
     for (std::uint32_t e = 0; e < v_.size(); ++e) {
       if (at(e).x == at(a).x && at(e).y == at(a).y) continue;
-      if (b == none || numbers::orient3d(at(a), up, at(b), at(e)) > 0) b = e;
+      if (b == none || orient3d(at(a), up, at(b), at(e)) > 0) b = e;
     }
     return b;
   }
@@ -73,7 +73,7 @@ class HullWrapping {
   std::uint32_t on_upright_plane(std::uint32_t a, std::uint32_t b) const {
     const Point3 up = at(a) + upwards;
     for (std::uint32_t e = 0; e < v_.size(); ++e)
-      if (numbers::orient3d(at(a), up, at(b), at(e)) == 0 && !numbers::collinear(at(a), at(b), at(e))) return e;
+      if (orient3d(at(a), up, at(b), at(e)) == 0 && !collinear(at(a), at(b), at(e))) return e;
     return none;
   }
 
@@ -81,14 +81,13 @@ class HullWrapping {
   std::uint32_t around(std::uint32_t a, std::uint32_t b) const {
     std::uint32_t c = none;
     for (std::uint32_t e = 0; e < v_.size(); ++e)
-      if (c == none ? !numbers::collinear(at(a), at(b), at(e)) : numbers::orient3d(at(a), at(b), at(c), at(e)) > 0)
-        c = e;
+      if (c == none ? !collinear(at(a), at(b), at(e)) : orient3d(at(a), at(b), at(c), at(e)) > 0) c = e;
     return c;
   }
 
   std::uint32_t off_plane(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     for (std::uint32_t e = 0; e < v_.size(); ++e)
-      if (numbers::orient3d(at(a), at(b), at(c), at(e)) != 0) return e;
+      if (orient3d(at(a), at(b), at(c), at(e)) != 0) return e;
     return none;
   }
 
@@ -97,8 +96,8 @@ class HullWrapping {
     std::uint32_t q = none;
     for (const std::uint32_t e : plane) {
       if (e == a) continue;
-      if (q == none || numbers::orient3d(at(a), at(q), at(e), at(inner)) > 0 ||
-          (numbers::collinear(at(a), at(q), at(e)) && is_nearer(at(e) - at(a), at(q) - at(a))))
+      if (q == none || orient3d(at(a), at(q), at(e), at(inner)) > 0 ||
+          (collinear(at(a), at(q), at(e)) && is_nearer(at(e) - at(a), at(q) - at(a))))
         q = e;
     }
     return q;
@@ -115,9 +114,9 @@ class HullWrapping {
                            std::uint32_t inner) const {
     std::uint32_t r = none;
     for (const std::uint32_t e : plane) {
-      if (numbers::orient3d(at(q), at(a), at(e), at(inner)) <= 0) continue;
-      if (r == none || numbers::incircle_perturbed(at(q), at(a), at(r), at(inner), at(e),
-                                                   {v_[q].rank, v_[a].rank, v_[r].rank, v_[e].rank}) > 0)
+      if (orient3d(at(q), at(a), at(e), at(inner)) <= 0) continue;
+      if (r == none || incircle_perturbed(at(q), at(a), at(r), at(inner), at(e),
+                                          {v_[q].rank, v_[a].rank, v_[r].rank, v_[e].rank}) > 0)
         r = e;
     }
     return r;
@@ -167,7 +166,7 @@ std::vector<FaceCorners> corners_of(const LargeVector<Cell>& cells, std::span<co
 
 /// Is the vertex outside one of the faces?
 bool sees(std::span<const GridVertex> v, const FaceCorners& face, std::uint32_t vertex) {
-  return numbers::orient3d(v[face[0]].point, v[face[1]].point, v[face[2]].point, v[vertex].point) > 0;
+  return orient3d(v[face[0]].point, v[face[1]].point, v[face[2]].point, v[vertex].point) > 0;
 }
 
 void add_faces_seen_by_lone_vertices(const LargeVector<Cell>& cells, std::span<const GridVertex> vertices,

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "engine/base/point.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::facets {
 
@@ -17,7 +17,7 @@ using FacetAxis = std::int8_t;
 
 /// \param normal  of the facet: the sum over its faces
 inline FacetAxis axis_along(const Point3& normal) {
-  const int axis = plc::dominant_axis(normal);
+  const int axis = dominant_axis(normal);
   return static_cast<FacetAxis>(as_array(normal)[axis] < 0 ? -axis - 1 : axis + 1);
 }
 
@@ -26,7 +26,7 @@ inline bool is_upright(const Point3& a, const Point3& b, const Point3& c, FacetA
   const double up = axis > 0 ? 1 : -1;
   const int number = std::abs(axis);
   const Point3 apex = a + Point3{number == 1 ? up : 0, number == 2 ? up : 0, number == 3 ? up : 0};
-  return numbers::orient3d(a, b, c, apex) > 0;
+  return orient3d(a, b, c, apex) > 0;
 }
 
 }  // namespace ccdt::facets

@@ -12,9 +12,9 @@
 #include "engine/base/shared_progress.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/planar/triangulation.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::facets {
 namespace {
@@ -34,11 +34,11 @@ class FacetPlane {
   FacetPlane(Vertices vertices, const std::vector<Point3>& flattened)
       : vertices_(vertices), flattened_(&flattened), apex_{0, 0, 0x1p50} {}
 
-  int orient(VertexId a, VertexId b, VertexId c) const { return numbers::orient3d(at(a), at(b), at(c), apex_); }
+  int orient(VertexId a, VertexId b, VertexId c) const { return orient3d(at(a), at(b), at(c), apex_); }
 
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
-    return numbers::incircle_perturbed(at(a), at(b), at(c), apex_, at(d),
-                                       {vertices_[a].rank, vertices_[b].rank, vertices_[c].rank, vertices_[d].rank});
+    return incircle_perturbed(at(a), at(b), at(c), apex_, at(d),
+                              {vertices_[a].rank, vertices_[b].rank, vertices_[c].rank, vertices_[d].rank});
   }
 
  private:
@@ -62,8 +62,7 @@ class BentPlane {
 
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
     const int above =
-        numbers::orient3d(vertices_[a].point, vertices_[b].point, vertices_[c].point, vertices_[d].point) *
-        domain_side_;
+        orient3d(vertices_[a].point, vertices_[b].point, vertices_[c].point, vertices_[d].point) * domain_side_;
     return above != 0 ? -above : plane_.incircle(a, b, c, d);
   }
 
@@ -90,7 +89,7 @@ FacetFrame frame_of(std::span<const Triangle> triangles, Vertices vertices) {
     scale = std::max(scale, squared_length(vertices[t[0]].point - base));
   }
   normal = (1 / std::sqrt(squared_length(normal))) * normal;
-  return {normal, plc::dominant_axis(normal), std::sqrt(scale)};
+  return {normal, dominant_axis(normal), std::sqrt(scale)};
 }
 
 /// The least power of two that is not less than a positive number.
@@ -197,8 +196,7 @@ class FacetMesher {
     const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
     const auto flatten_vertex = [&](VertexId v) {
       const Point3 p = pick(d_.point(v)) - base;
-      flattened_[v] = {numbers::round_to_unit(0.25 * (first * p.x + shear * p.y)),
-                       numbers::round_to_unit(0.25 * turn * second * p.y), 0};
+      flattened_[v] = {round_to_unit(0.25 * (first * p.x + shear * p.y)), round_to_unit(0.25 * turn * second * p.y), 0};
     };
     for (const Triangle& t : triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
     for (const FacetSegment& s : segments)
@@ -250,7 +248,7 @@ class FacetMesher {
           continue;
         const std::uint32_t apex = v[0] ^ v[1] ^ v[2] ^ v[3] ^ a ^ b ^ middle;
         const int turn = plane.orient(VertexId(a), VertexId(middle), VertexId(apex));
-        if (turn * domain_side_ * numbers::orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) > 0)
+        if (turn * domain_side_ * orient3d(d_.point(a), d_.point(middle), d_.point(apex), d_.point(b)) > 0)
           return false;
       }
     }

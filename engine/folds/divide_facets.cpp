@@ -8,8 +8,8 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/folds/find_folds.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/protection/segment_chains.h"
 
 namespace ccdt::folds {
@@ -124,7 +124,7 @@ bool FacetDivider::touches_segment(std::uint32_t f) const {
 /// \return  false if they are already
 bool FacetDivider::separate(std::uint32_t f, const std::array<Point3, 3>& face) {
   const Point3 normal = plc::sum_of_normals(plc_.triangles_of(plc_.facets[f]), plc_.vertices);
-  const auto axis = static_cast<std::size_t>(plc::dominant_axis(normal));
+  const auto axis = static_cast<std::size_t>(dominant_axis(normal));
   bool changed = false;
   for (std::uint32_t i = first_[f]; i < first_[f + 1]; ++i) {
     const std::array<Point3, 3> corners = corners_of(mesh_.triangles[i]);
@@ -206,7 +206,7 @@ void FacetDivider::add_segments(std::uint32_t f, plc::Plc& result) const {
     const VertexId a = triangles[i][side % 3], b = triangles[i][(side + 1) % 3];
     const VertexId apex = *std::ranges::find_if(triangles[j], [&](VertexId v) { return v != a && v != b; });
     const auto [p, q, r] = corners_of(triangles[i]);
-    const int turn = numbers::orient3d(p, q, r, plc_.vertices[apex]);
+    const int turn = orient3d(p, q, r, plc_.vertices[apex]);
     result.segments.push_back({{a, b}, 0, is_grazeable_fold(plc_, plc_.facets[f], turn)});
   }
 }

@@ -3,39 +3,20 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/box_tree.h"
 #include "engine/front/find_delaunay_faces.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/find_overlaps.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/contacts.h"
 
 namespace ccdt::folds {
 namespace {
 
 using Triangle = std::array<VertexId, 3>;
 
-/// Puts the common vertices of two triangles first, in both.
-///
-/// \return their number
-std::size_t pair_corners(Triangle& s, Triangle& t) {
-  std::size_t common = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto same = std::find(t.begin() + static_cast<std::ptrdiff_t>(common), t.end(), s[i]);
-    if (same == t.end()) continue;
-    std::swap(s[i], s[common]);
-    std::swap(*same, t[common++]);
-  }
-  return common;
-}
-
 /// Do two triangles meet in more than common vertices and edges?
 bool meet(Triangle s, Triangle t, const delaunay::Delaunay& d) {
-  const std::size_t common = pair_corners(s, t);
+  const int common = put_common_first(s, t);
   const auto points_of = [&](const Triangle& c) { return std::array{d.point(c[0]), d.point(c[1]), d.point(c[2])}; };
-  const auto p = points_of(s), q = points_of(t);
-  if (common == 0) return plc::meet_triangles(p, q).has_value();
-  if (common == 1) return plc::meet_triangles_at_corner(p, q).has_value();
-  if (common == 3) return true;
-  return numbers::orient3d(p[0], p[1], p[2], q[2]) == 0 && dot(area_vector(p), area_vector(q)) > 0;
+  return common == 3 || meet_elsewhere(points_of(s), points_of(t), common).has_value();
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::folds {
 namespace {
@@ -23,9 +23,9 @@ bool is_illegal(const delaunay::Delaunay& d, const Triangle& t, VertexId apex) {
   const Point3 &a = v[t[0]].point, &b = v[t[1]].point, &c = v[t[2]].point;
   for (const Point3& up : {Point3{1, 0, 0}, Point3{0, 1, 0}, Point3{0, 0, 1}})
     for (const Point3& above : {a + up, a - up})
-      if (numbers::orient3d(a, b, c, above) > 0)
-        return numbers::incircle_perturbed(a, b, c, above, v[apex].point,
-                                           {v[t[0]].rank, v[t[1]].rank, v[t[2]].rank, v[apex].rank}) > 0;
+      if (orient3d(a, b, c, above) > 0)
+        return incircle_perturbed(a, b, c, above, v[apex].point,
+                                  {v[t[0]].rank, v[t[1]].rank, v[t[2]].rank, v[apex].rank}) > 0;
   return true;
 }
 
@@ -90,7 +90,7 @@ class FoldFinder {
     const Triangle& t = facets_.triangles[side.value];
     const VertexId apex = corner_beside(facets_.triangles[other.value], side.edge);
     const delaunay::Delaunay& d = surface_.delaunay;
-    return numbers::orient3d(d.point(t[0]), d.point(t[1]), d.point(t[2]), d.point(apex));
+    return orient3d(d.point(t[0]), d.point(t[1]), d.point(t[2]), d.point(apex));
   }
 
   /// Is a sector of the domain of 180 degrees or more around the edge? The next face is then not on that side.

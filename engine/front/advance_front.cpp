@@ -11,9 +11,9 @@
 #include "engine/front/apex_finders.h"
 #include "engine/front/find_swallowed.h"
 #include "engine/front/stuck.h"
+#include "engine/geometry/predicates.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
-#include "engine/numbers/predicates.h"
 
 namespace ccdt::front {
 namespace {
@@ -285,8 +285,8 @@ class Front {
         its, [&](std::uint32_t v) { return std::ranges::find(face.corners, v) == face.corners.end(); });
     const auto& vertices = in_.delaunay.vertices;
     const std::array v = {vertices[t[0]], vertices[t[1]], vertices[t[2]], vertices[t[3]], vertices[fourth]};
-    return numbers::insphere_perturbed(v[0].point, v[1].point, v[2].point, v[3].point, v[4].point,
-                                       {v[0].rank, v[1].rank, v[2].rank, v[3].rank, v[4].rank}) >= 0;
+    return insphere_perturbed(v[0].point, v[1].point, v[2].point, v[3].point, v[4].point,
+                              {v[0].rank, v[1].rank, v[2].rank, v[3].rank, v[4].rank}) >= 0;
   }
 
   void add_tetrahedron(const OrientedFace& base, std::uint32_t apex, const State& state) {

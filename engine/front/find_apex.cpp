@@ -9,10 +9,11 @@
 
 #include "engine/base/count_work.h"
 #include "engine/front/visibility.h"
+#include "engine/geometry/balls.h"
+#include "engine/geometry/filters.h"
+#include "engine/geometry/predicates.h"
 #include "engine/locate/grid_locator.h"
 #include "engine/locate/octree_locator.h"
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
 
 namespace ccdt::front {
 namespace {
@@ -25,11 +26,9 @@ Point3 approximate_centroid(const Point3& a, const Point3& b, const Point3& c) {
 /// The circumsphere in floating point, a little too large; the cap stays unchanged if the four points are too flat.
 void shrink(locate::Cap& cap, const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
-  const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
-  const Point3 uv = cross(u, v);
-  const double volume = dot(w, uv);
-  if (volume * volume < 1e-18 * uu * vv * ww) return;
-  const Point3 to_center = (0.5 / volume) * (uu * cross(v, w) + vv * cross(w, u) + ww * uv);
+  const double volume = dot(w, cross(u, v));
+  if (volume * volume < 1e-18 * squared_length(u) * squared_length(v) * squared_length(w)) return;
+  const Point3 to_center = to_circumcenter(u, v, w);
   cap.shrink_to(a + to_center, std::sqrt(squared_length(to_center)) * (1 + 1e-6));
 }
 
@@ -94,15 +93,14 @@ class ApexSearch {
   void find_better(std::span<const std::uint32_t> vertices, locate::LocatedVertex& best,
                    std::vector<Candidate>& candidates) {
     const Point3 u = b_.point - a_.point, v = c_.point - a_.point, normal = cross(u, v);
-    const Point3 to_center =
-        (1 / squared_length(normal)) * (squared_length(u) * cross(v, normal) + squared_length(v) * cross(normal, u));
+    const Point3 twice_to_center = 2 * to_circumcenter(u, v);
     candidates.clear();
     for (const std::uint32_t id : vertices) {
       ++work_done.front_candidates;
       const locate::LocatedVertex vertex = located(id);
       if (!is_above(vertex.point) || (best.id != delaunay::ghost_vertex && !is_in_sphere(best, vertex))) continue;
       const Point3 e = vertex.point - a_.point;
-      const double lift = dot(e, e - to_center) / dot(normal, e);
+      const double lift = dot(e, e - twice_to_center) / dot(normal, e);
       candidates.push_back({std::isnan(lift) ? 0 : lift, id});
     }
     // The first visible one is the best, up to rounding.
@@ -154,17 +152,16 @@ class ApexSearch {
   }
 
   bool is_above(const Point3& p) const {
-    const numbers::Sign sign = numbers::orient3d_filter(a_.point, b_.point, c_.point, p);
-    return sign == numbers::Sign::unknown ? numbers::orient3d_exactly(a_.point, b_.point, c_.point, p) > 0
-                                          : sign == numbers::Sign::plus;
+    const Sign sign = orient3d_filter(a_.point, b_.point, c_.point, p);
+    return sign == Sign::unknown ? orient3d_exactly(a_.point, b_.point, c_.point, p) > 0 : sign == Sign::plus;
   }
 
   /// Is v in the sphere of the face and the best vertex so far?
   bool is_in_sphere(const locate::LocatedVertex& best, const locate::LocatedVertex& v) const {
-    const numbers::Sign sign = numbers::insphere_filter(a_.point, b_.point, c_.point, best.point, v.point);
-    if (sign == numbers::Sign::plus || sign == numbers::Sign::minus) return sign == numbers::Sign::plus;
-    return numbers::insphere_perturbed(a_.point, b_.point, c_.point, best.point, v.point,
-                                       {a_.rank, b_.rank, c_.rank, best.rank, v.rank}) > 0;
+    const Sign sign = insphere_filter(a_.point, b_.point, c_.point, best.point, v.point);
+    if (sign == Sign::plus || sign == Sign::minus) return sign == Sign::plus;
+    return insphere_perturbed(a_.point, b_.point, c_.point, best.point, v.point,
+                              {a_.rank, b_.rank, c_.rank, best.rank, v.rank}) > 0;
   }
 
   bool is_visible(const locate::LocatedVertex& v) {

@@ -11,7 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::front {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::front {
 namespace {
@@ -30,7 +30,7 @@ std::vector<bool> corners_of(std::span<const Tetrahedron> tetrahedra, const face
 bool holds(const delaunay::Delaunay& d, const Tetrahedron& t, const Point3& p) {
   for (std::uint32_t f = 0; f < 4; ++f) {
     const auto [a, b, c] = delaunay::corners_of_face(t, f);
-    if (numbers::orient3d(d.point(a), d.point(b), d.point(c), p) < 0) return false;
+    if (orient3d(d.point(a), d.point(b), d.point(c), p) < 0) return false;
   }
   return true;
 }

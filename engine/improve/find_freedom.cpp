@@ -7,7 +7,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/index.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/plane_steps.h"
 
 namespace ccdt::improve {
@@ -96,7 +96,7 @@ class FreedomFinder {
     if (around.segment_count != 2) return;
     const auto& [a, b, c] = triangle;
     for (const std::uint32_t s : around.segments)
-      if (numbers::orient3d(point(a), point(b), point(c), point(other_end(s, v))) != 0) around.crossed = true;
+      if (orient3d(point(a), point(b), point(c), point(other_end(s, v))) != 0) around.crossed = true;
   }
 
   Freedom of_vertex(std::uint32_t v) const {
@@ -118,7 +118,7 @@ class FreedomFinder {
     if (around.crossed || plc_.segments[s].marker != plc_.segments[t].marker) return fixed;
     if (!may_slide_along_[s] || !may_slide_along_[t]) return fixed;
     const std::uint32_t before = other_end(s, v), after = other_end(t, v);
-    return numbers::collinear(point(before), point(v), point(after)) ? along_line(point(v), point(after)) : fixed;
+    return collinear(point(before), point(v), point(after)) ? along_line(point(v), point(after)) : fixed;
   }
 
   const plc::Plc& plc_;

@@ -94,8 +94,11 @@ struct Attempt {
   std::vector<CellId> worse_cells;  ///< that its moves made bad
 };
 
-/// The cells that are tried together.
+/// The cells that are tried together, and what becomes of all bad cells.
 struct Window {
+  BadCells cells;
+  ImproveCounts counts;
+
   std::vector<Trial> trials;
   std::uint32_t number = 0;
   std::vector<std::uint32_t> near;  ///< of each vertex: the last window with a cell close to it
@@ -144,15 +147,15 @@ void tidy(const CellComplex& x, std::vector<BadCell>& bad) {
 }
 
 /// Puts a cell into the window. One close to another of the window waits, since it would probably be disturbed.
-void take(const CellComplex& x, const BadCell& bad, BadCells& cells, Window& window) {
+void take(const CellComplex& x, const BadCell& bad, Window& window) {
   if (is_stale(x, bad)) return;
   if (!should_be_tried(x, bad)) {
-    cells.found.push_back(bad);
+    window.cells.found.push_back(bad);
     return;
   }
   const auto near = vertices_near(x, bad.cell);
   if (std::ranges::any_of(near, [&](std::uint32_t v) { return window.near[v] == window.number; })) {
-    cells.waiting.push_back(bad);
+    window.cells.waiting.push_back(bad);
     return;
   }
   for (const std::uint32_t v : near) window.near[v] = window.number;
@@ -160,7 +163,8 @@ void take(const CellComplex& x, const BadCell& bad, BadCells& cells, Window& win
 }
 
 /// Takes the next cells to try: first those that wait, then those of the queue.
-void fill_window(const CellComplex& x, BadCells& cells, Window& window) {
+void fill_window(const CellComplex& x, Window& window) {
+  BadCells& cells = window.cells;
   window.trials.clear();
   window.changed_faces.clear();
   window.begin = x.change_count();
@@ -170,11 +174,11 @@ void fill_window(const CellComplex& x, BadCells& cells, Window& window) {
   window.returning.swap(cells.waiting);
   const auto is_open = [&] { return window.trials.size() < window_length; };
   std::size_t i = 0;
-  while (i < window.returning.size() && is_open()) take(x, window.returning[i++], cells, window);
+  while (i < window.returning.size() && is_open()) take(x, window.returning[i++], window);
   cells.waiting.insert(cells.waiting.end(), window.returning.begin() + static_cast<std::ptrdiff_t>(i),
                        window.returning.end());
   while (cells.next < cells.queue.size() && is_open() && cells.waiting.size() < most_waiting)
-    take(x, cells.queue[cells.next++], cells, window);
+    take(x, cells.queue[cells.next++], window);
 }
 
 /// Has something changed since the window was filled that the step was made for?
@@ -248,24 +252,25 @@ void make_announced_steps(CellComplex& x, Window& window) {
 }
 
 /// Counts what was done, and decides when the cell and those that became bad are tried again.
-void conclude(const CellComplex& x, const Task& task, BadCell& bad, const Attempt& attempt, Effort effort,
-              BadCells& cells, Window& window, ImproveCounts& counts) {
+void conclude(const CellComplex& x, const Task& task, Effort effort, BadCell& bad, const Attempt& attempt,
+              Window& window) {
   const Step& step = attempt.step;
+  BadCells& cells = window.cells;
   if (attempt.waits) {
     cells.waiting.push_back(bad);
     return;
   }
   if (!is_empty(step.space_taken)) window.looks_for_faces = true;
   if (step.kind == Step::Kind::change) {
-    ++(counts.*step.count);
-    counts.facet_flips += !step.change.faces.empty();
+    ++(window.counts.*step.count);
+    window.counts.facet_flips += !step.change.faces.empty();
     // The qualities are asked of the change, whose memory is at hand.
     for (std::size_t i = 0; i < attempt.new_cells.size(); ++i)
       if (!(step.change.new_cells[i].quality >= x.goal().good())) add_bad(x, attempt.new_cells[i], cells.found);
     return;
   }
   if (step.kind == Step::Kind::moves) {
-    counts.moved_vertices += step.move_count;
+    window.counts.moved_vertices += step.move_count;
     for (const CellId c : attempt.worse_cells) add_bad(x, c, cells.found);
     if (!is_bad(x, bad.cell)) return;
     if (effort == Effort::greatest && task.rules.improvement == Improvement::all) {
@@ -282,8 +287,7 @@ void conclude(const CellComplex& x, const Task& task, BadCell& bad, const Attemp
 
 /// Tries the cells of the window in their order. One that was disturbed by a change in the same window waits. So each
 /// step is found in the complex as it was before the window, and several threads can find them.
-void try_window(CellComplex& x, const Task& task, Effort effort, BadCells& cells, Window& window,
-                ImproveCounts& counts) {
+void try_window(CellComplex& x, const Task& task, Effort effort, Window& window) {
   const bool is_shared = window.finders.size() > 1 && window.trials.size() >= least_shared;
   if (is_shared) find_steps(x, task, effort, window);
   for (std::uint32_t i = 0; i < window.trials.size(); ++i) {
@@ -307,17 +311,18 @@ void try_window(CellComplex& x, const Task& task, Effort effort, BadCells& cells
       else
         make_step(x, attempt);
     }
-    if (!is_shared) conclude(x, task, bad, attempt, effort, cells, window, counts);
+    if (!is_shared) conclude(x, task, effort, bad, attempt, window);
   }
   if (!is_shared) return;
   make_announced_steps(x, window);
   for (std::size_t i = 0; i < window.trials.size(); ++i)
-    conclude(x, task, window.trials[i].bad, window.attempts[i], effort, cells, window, counts);
+    conclude(x, task, effort, window.trials[i].bad, window.attempts[i], window);
 }
 
 /// Tries each bad cell once, unless nothing around it has changed since its last failed attempt. \return was anything
 /// improved?
-bool pass(CellComplex& x, const Task& task, Effort effort, BadCells& cells, Window& window, ImproveCounts& counts) {
+bool pass(CellComplex& x, const Task& task, Effort effort, Window& window) {
+  BadCells& cells = window.cells;
   cells.queue.swap(cells.found);
   cells.found.clear();
   tidy(x, cells.queue);
@@ -332,8 +337,8 @@ bool pass(CellComplex& x, const Task& task, Effort effort, BadCells& cells, Wind
       cells.waiting.clear();
       break;
     }
-    fill_window(x, cells, window);
-    try_window(x, task, effort, cells, window, counts);
+    fill_window(x, window);
+    try_window(x, task, effort, window);
     if (window.looks_for_faces) x.index_faces();
   }
   return x.change_count() != changes;
@@ -365,34 +370,34 @@ ImproveCounts improve_cells(CellComplex& x, const std::vector<Freedom>& freedom,
   if (options.improvement == Improvement::none) return {};
   const Task task{{options.improvement.value_or(Improvement::all), freedom}, options.time, Clock::now(), progress};
   const Improvement improvement = task.rules.improvement;
-  ImproveCounts counts;
   Window window;
   window.finders.resize(thread_count());
-  BadCells cells;
-  cells.found = parallel_collect<BadCell>(x.cell_count(), 16384, [&](std::size_t c, std::size_t end, auto& bad) {
+  ImproveCounts& counts = window.counts;
+  std::vector<BadCell>& found = window.cells.found;
+  found = parallel_collect<BadCell>(x.cell_count(), 16384, [&](std::size_t c, std::size_t end, auto& bad) {
     for (; c < end; ++c) add_bad(x, CellId(c), bad);
   });
-  counts.bad_cells = cells.found.size();
-  const auto improve = [&](Effort effort) { return pass(x, task, effort, cells, window, counts); };
+  counts.bad_cells = found.size();
+  const auto improve = [&](Effort effort) { return pass(x, task, effort, window); };
 
-  for (Effort effort = Effort::usual; !cells.found.empty() && !task.time_is_up();) {
+  for (Effort effort = Effort::usual; !found.empty() && !task.time_is_up();) {
     if (improve(effort)) continue;
     if (effort == Effort::greatest || improvement == Improvement::swap) break;
     effort = Effort::greatest;
-    for (BadCell& bad : cells.found) bad.tried_at = 0, bad.tries = 0;
+    for (BadCell& bad : found) bad.tried_at = 0, bad.tries = 0;
   }
   std::mt19937 random{2};
   for (std::size_t round = 0; improvement == Improvement::all && round < shaking_rounds && !task.time_is_up();
        ++round) {
-    tidy(x, cells.found);
-    if (!shake_worst_cells(x, shaking_tries[round % shaking_tries.size()], random, cells.found)) break;
+    tidy(x, found);
+    if (!shake_worst_cells(x, shaking_tries[round % shaking_tries.size()], random, found)) break;
     while (improve(Effort::usual) && !task.time_is_up()) {
     }
     improve(Effort::greatest);
   }
-  tidy(x, cells.found);
-  counts.bad_cells_left = cells.found.size();
-  counts.stop = cells.found.empty() ? ImproveStop::target : task.time_is_up() ? ImproveStop::time : ImproveStop::stuck;
+  tidy(x, found);
+  counts.bad_cells_left = found.size();
+  counts.stop = found.empty() ? ImproveStop::target : task.time_is_up() ? ImproveStop::time : ImproveStop::stuck;
   return counts;
 }
 

@@ -27,6 +27,6 @@ bool plan_collapse(const CellComplex& complex, CellId cell, double least, PlanSc
 /// ones: the cavity grows across each face that would make a bad cell with the new vertex. The vertex then moves to the
 /// position where the worst of the new cells is best (after Klingner and Shewchuk 2007). An interior vertex inside the
 /// cavity is removed. The new cells are exactly positive.
-bool plan_insertion(const CellComplex& complex, CellId cell, double least, PlanScratch& scratch, Change& change);
+bool plan_insertion(const CellComplex& x, CellId cell, double least, PlanScratch& cavity, Change& change);
 
 }  // namespace ccdt::improve

@@ -24,7 +24,7 @@ struct ReconnectionScratch {
 ///
 /// \param least  all new cells are better than this
 /// \return       are there such cells?
-bool plan_reconnection(const tets::CellComplex& complex, CellId cell, double least, ReconnectionScratch& scratch,
+bool plan_reconnection(const tets::CellComplex& x, CellId cell, double least, ReconnectionScratch& polyhedron,
                        tets::Change& change);
 
 }  // namespace ccdt::improve

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::improve {
 
@@ -338,8 +338,7 @@ std::optional<Point3> round_move(const Freedom& freedom, const Point3& move) {
 }
 
 bool all_positive(std::span<const StarFace> faces, const Point3& apex) {
-  return std::all_of(faces.begin(), faces.end(),
-                     [&](const StarFace& f) { return numbers::orient3d(f.a, f.b, f.c, apex) > 0; });
+  return std::all_of(faces.begin(), faces.end(), [&](const StarFace& f) { return orient3d(f.a, f.b, f.c, apex) > 0; });
 }
 
 std::size_t count_bad(std::span<const StarFace> faces, const QualityGoal& goal, const Point3& apex) {

@@ -1,5 +1,7 @@
 #include "engine/io/read_lines.h"
 
+#include <algorithm>
+
 namespace ccdt::io {
 
 std::vector<LineBlock> cut_lines(std::string_view text, char line_end, std::size_t lines) {

@@ -10,6 +10,8 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/balls.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/lattice/surface_obstacles.h"
 
 namespace ccdt::lattice {
@@ -29,56 +31,8 @@ namespace ccdt::lattice {
 
 namespace {
 
-/// Covers the rounding of the test whether a point is in a ball, or near enough to a triangle.
+/// Covers the rounding of the test whether a point is near enough to a triangle.
 constexpr double relative_margin = 1e-9;
-
-double squared_distance(const Point3& a, const Point3& b, const Point3& p) {
-  const Point3 ab = b - a, ap = p - a;
-  const double length = squared_length(ab);
-  const double t = length > 0 ? std::clamp(dot(ap, ab) / length, 0.0, 1.0) : 0;
-  return squared_length(ap - t * ab);
-}
-
-}  // namespace
-
-double squared_distance(const TrianglePoints& triangle, const Point3& p) {
-  const auto& [a, b, c] = triangle;
-  const Point3 normal = cross(b - a, c - a);
-  const double area = squared_length(normal);
-  if (area > 0 && dot(cross(b - a, p - a), normal) >= 0 && dot(cross(c - b, p - b), normal) >= 0 &&
-      dot(cross(a - c, p - c), normal) >= 0) {
-    const double height = dot(p - a, normal);
-    return height * height / area;
-  }
-  return std::min({squared_distance(a, b, p), squared_distance(b, c, p), squared_distance(c, a, p)});
-}
-
-Ball smallest_ball(const Point3& a, const Point3& b) {
-  return {0.5 * (a + b), 0.5 * std::sqrt(squared_length(b - a)) * (1 + relative_margin)};
-}
-
-Ball smallest_ball(const TrianglePoints& triangle) {
-  // a to b is the longest edge, c the corner across.
-  TrianglePoints t = triangle;
-  for (int turn = 0; turn < 2; ++turn) {
-    const double opposite_c = squared_length(t[1] - t[0]);
-    if (opposite_c >= squared_length(t[2] - t[1]) && opposite_c >= squared_length(t[0] - t[2])) break;
-    t = {t[1], t[2], t[0]};
-  }
-  const auto& [a, b, c] = t;
-  const Point3 middle = 0.5 * (a + b), along = b - a, to_c = c - middle;
-  const double radius2 = 0.25 * squared_length(along), excess = squared_length(to_c) - radius2;
-  const Point3 height = to_c - (dot(to_c, along) / squared_length(along)) * along;
-  const double height2 = squared_length(height);
-  if (excess <= 0 || height2 == 0) return smallest_ball(a, b);
-  // On the way from the middle of ab toward c, the center is where a and c are equally far.
-  const double shift = excess / (2 * height2);
-  const double radius = std::sqrt(radius2 + shift * shift * height2);
-  constexpr double rounding = 1e-15;
-  return {middle + shift * height, radius * (1 + relative_margin) + rounding * radius2 / std::sqrt(height2)};
-}
-
-namespace {
 
 /// Octree coordinates from `low` to `high`, both included.
 struct Range {
@@ -104,7 +58,7 @@ class TriangleDistance {
     constexpr double margin = 1.01;
     const double height = dot(p - corners_[0], normal_);
     if (height * height > margin * squared_radius * squared_area_) return false;
-    return lattice::squared_distance(corners_, p) <= squared_radius;
+    return squared_distance(corners_, p) <= squared_radius;
   }
 
  private:

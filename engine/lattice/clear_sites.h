@@ -3,22 +3,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/box.h"
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/octree.h"
 #include "engine/lattice/options.h"
 #include "engine/lattice/sites.h"
 
 namespace ccdt::lattice {
-
-/// The smallest ball around a triangle (the paper's minimal circumsphere), slightly enlarged, so that a point on the
-/// sphere is in it.
-Ball smallest_ball(const TrianglePoints& triangle);
-/// The smallest ball around a segment, slightly enlarged.
-Ball smallest_ball(const Point3& a, const Point3& b);
-
-/// The squared distance of p and the triangle, which may be degenerate.
-double squared_distance(const TrianglePoints& triangle, const Point3& p);
 
 /// Finds the sites that are too near to the surface: in the smallest ball of a triangle or a subsegment, its radius
 /// times `options.sphere_factor` (paper, section 3; Cavendish, Field and Frey 1985), or not farther from a triangle, a

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::lattice {
 
@@ -107,11 +107,11 @@ Hit locate_hit(const Ray& ray, const TrianglePoints& corners, const SurfaceTrian
 
 RayMeetsTriangle meet(const Ray& ray, const TrianglePoints& corners, const SurfaceTriangle& triangle, Hit& hit) {
   const auto& [a, b, c] = corners;
-  const int start_side = numbers::orient3d(a, b, c, ray.start), end_side = numbers::orient3d(a, b, c, ray.end);
+  const int start_side = orient3d(a, b, c, ray.start), end_side = orient3d(a, b, c, ray.end);
   if (start_side == 0 && end_side == 0) return RayMeetsTriangle::unclear;
   if (start_side == end_side) return RayMeetsTriangle::none;
-  const int turns[] = {numbers::orient3d(ray.start, ray.end, a, b), numbers::orient3d(ray.start, ray.end, b, c),
-                       numbers::orient3d(ray.start, ray.end, c, a)};
+  const int turns[] = {orient3d(ray.start, ray.end, a, b), orient3d(ray.start, ray.end, b, c),
+                       orient3d(ray.start, ray.end, c, a)};
   const auto [least, most] = std::minmax({turns[0], turns[1], turns[2]});
   if (least < 0 && most > 0) return RayMeetsTriangle::none;
   if (start_side == 0) return RayMeetsTriangle::start_on_triangle;

@@ -10,8 +10,8 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/filters.h"
 #include "engine/lattice/inside_test.h"
-#include "engine/numbers/filters.h"
 
 namespace ccdt::lattice {
 
@@ -46,7 +46,6 @@ constexpr unsigned upper_children[] = {0xAA, 0xCC, 0xF0};
 /// \param reach   bound on the coordinates of corners relative to the centers of all children
 CCDT_ALWAYS_INLINE unsigned children_touching(const TrianglePoints& triangle, const Point3& center, double half,
                                               double reach) {
-  using numbers::Lanes, numbers::IntegerLanes;
   const auto ab = as_array(triangle[1] - triangle[0]), bc = as_array(triangle[2] - triangle[1]),
              ac = as_array(triangle[2] - triangle[0]), to_center = as_array(center - triangle[0]);
   // The boxes grow by a margin, so that rounding can only turn "apart" into "touching".
@@ -54,7 +53,7 @@ CCDT_ALWAYS_INLINE unsigned children_touching(const TrianglePoints& triangle, co
   Lanes edge[3] = {}, magnitude[3] = {};
   for (int k = 0; k < 3; ++k) {
     edge[k] = Lanes{ab[k], bc[k], ac[k], 0};
-    numbers::filter::magnitude(edge[k], magnitude[k]);
+    filter::magnitude(edge[k], magnitude[k]);
   }
   IntegerLanes apart = {};  // in each lane: the children that its edge shows to be apart
   for (int k = 0; k < 3; ++k) {

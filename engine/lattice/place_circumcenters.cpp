@@ -13,11 +13,12 @@
 
 #include "engine/base/count_work.h"
 #include "engine/delaunay/insertion.h"
+#include "engine/geometry/balls.h"
+#include "engine/geometry/grid.h"
 #include "engine/lattice/octree.h"
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/lattice/surface_obstacles.h"
 #include "engine/lattice/target_sizes.h"
-#include "engine/numbers/grid.h"
 
 namespace ccdt::lattice {
 namespace {
@@ -45,8 +46,7 @@ struct CellShape {
 CellShape shape_of(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;
   const double uu = squared_length(u), vv = squared_length(v), ww = squared_length(w);
-  const Point3 vw = cross(v, w), wu = cross(w, u), uv = cross(u, v);
-  const Point3 to_center = (0.5 / dot(u, vw)) * (uu * vw + vv * wu + ww * uv);
+  const Point3 to_center = to_circumcenter(u, v, w);
   return {a + to_center, squared_length(to_center),
           std::min({uu, vv, ww, squared_length(c - b), squared_length(d - b), squared_length(d - c)})};
 }
@@ -200,9 +200,7 @@ class Refinement {
     return least;
   }
 
-  static Point3 rounded(const Point3& p) {
-    return {numbers::round_to_unit(p.x), numbers::round_to_unit(p.y), numbers::round_to_unit(p.z)};
-  }
+  static Point3 rounded(const Point3& p) { return {round_to_unit(p.x), round_to_unit(p.y), round_to_unit(p.z)}; }
 
   Point3 centroid(const CellVertices& v) const {
     return rounded(0.25 * ((d_.point(v[0]) + d_.point(v[1])) + (d_.point(v[2]) + d_.point(v[3]))));

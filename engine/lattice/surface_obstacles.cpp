@@ -5,6 +5,8 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/geometry/balls.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/lattice/clear_sites.h"
 
 namespace ccdt::lattice {

@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/index.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/lattice/domain_surface.h"
 
 namespace ccdt::lattice {

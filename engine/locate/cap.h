@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/point.h"
+#include "engine/geometry/box_tree.h"
 
 namespace ccdt::locate {
 

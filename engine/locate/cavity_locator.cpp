@@ -8,7 +8,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/union_find.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::locate {
 namespace {
@@ -51,7 +51,7 @@ class TriangleCellTest {
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j)
         if (sides_[i] == from && sides_[j] != from && ((shared_[i] | shared_[j]) & ends) == 0 &&
-            numbers::orient3d(point(t_[k]), point(t_[next]), point(cell_[j]), point(cell_[i])) == from)
+            orient3d(point(t_[k]), point(t_[next]), point(cell_[j]), point(cell_[i])) == from)
           return false;
     return true;
   }
@@ -63,7 +63,7 @@ class TriangleCellTest {
       bool is_outside = false;
       for (unsigned k = 0; k < 3; ++k) {
         if ((on_face >> k & 1) != 0) continue;
-        const int side = numbers::orient3d(point(cell_[f[0]]), point(cell_[f[1]]), point(cell_[f[2]]), point(t_[k]));
+        const int side = orient3d(point(cell_[f[0]]), point(cell_[f[1]]), point(cell_[f[2]]), point(t_[k]));
         if (side > 0) return false;
         is_outside |= side < 0;
       }
@@ -157,7 +157,7 @@ class PiercedCellSearch {
     if (face == i) return side;
     face = i;
     const bool is_corner = v == t[0] || v == t[1] || v == t[2];
-    side = is_corner ? 0 : numbers::orient3d(d_.point(t[0]), d_.point(t[1]), d_.point(t[2]), d_.point(v));
+    side = is_corner ? 0 : orient3d(d_.point(t[0]), d_.point(t[1]), d_.point(t[2]), d_.point(v));
     return side;
   }
 

@@ -14,7 +14,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/facets/facet_axis.h"
 #include "engine/front/stuck.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::mesh {
 namespace {

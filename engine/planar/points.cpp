@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::planar {
 
@@ -28,7 +28,7 @@ Points::Points(std::span<const Point2> points) {
 int Points::orient(VertexId a, VertexId b, VertexId c) const {
   const GridPoint &p = grid_[a], &q = grid_[b], &r = grid_[c];
   // Coordinates of 26 bits: products of 52 bits.
-  return numbers::sign_of((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
+  return sign_of((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
 }
 
 int Points::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
@@ -40,12 +40,12 @@ int Points::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
     y[i] = grid_[others[i]].y - o.y;
     height[i] = x[i] * x[i] + y[i] * y[i];
   }
-  numbers::Int128 determinant = 0;
+  Int128 determinant = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    determinant += numbers::Int128{height[i]} * (x[j] * y[k] - x[k] * y[j]);
+    determinant += Int128{height[i]} * (x[j] * y[k] - x[k] * y[j]);
   }
-  if (determinant != 0) return numbers::sign_of(determinant);
+  if (determinant != 0) return sign_of(determinant);
 
   // Raising the height of one vertex by a small amount changes the determinant by that amount times the area of the
   // other three, for d with the opposite sign as it is what the others are measured from.

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "engine/base/simplex_map.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
 

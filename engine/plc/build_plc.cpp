@@ -9,7 +9,6 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/plc/connect_parts.h"
 #include "engine/plc/find_regions.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/input_faults.h"
@@ -27,11 +26,23 @@ void check_facets_exist(const InputPlc& input) {
   throw InputError("there are no facets", {.file = input.name}, "give a surface, or a .poly or .smesh with facets");
 }
 
-void check_overlaps(const Plc& plc, const ConnectedParts& connected) {
-  const auto& [parts, overlaps, tree] = connected;
-  for (const auto* pairs : {&overlaps.covering, &overlaps.crossing, &overlaps.of_segments})
-    if (!pairs->empty()) throw_overlaps(plc, parts.triangles, parts.segments, *pairs, pairs->size() == most_overlaps);
-}
+/// Stops at the first thing that is wrong.
+struct StrictExaminer : Examiner {
+  const Progress& progress;
+
+  explicit StrictExaminer(const Progress& its_progress) : progress(its_progress) {}
+  void see_conforming(const UncheckedPlc& /*parts*/) override { report(progress, stage, 2, steps_of_build); }
+  void see_duplicates(const UncheckedPlc& parts, std::span<const TrianglePair> pairs) override {
+    throw_duplicates(parts.plc, parts.triangles, pairs);
+  }
+  void see_overlaps(const Plc& plc, const ConnectedParts& connected) override {
+    for (const auto* found :
+         {&connected.overlaps.covering, &connected.overlaps.crossing, &connected.overlaps.of_segments})
+      if (!found->empty())
+        throw_overlaps(plc, connected.parts.triangles, connected.parts.segments, *found,
+                       found->size() == most_overlaps);
+  }
+};
 
 // Is a sector of the domain of 180 degrees or more around the edge?
 bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
@@ -132,19 +143,27 @@ UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options, const 
   return gathered;
 }
 
-Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options, const Progress& progress) {
-  Plc plc = std::move(gathered.plc);
-  check_duplicate_triangles(plc, gathered.triangles);
-  const std::vector<TrianglePair> close = make_conforming(plc.vertices, gathered.triangles);
-  split_segments_at_vertices(plc.vertices, gathered.segments);
-  report(progress, stage, 2, steps_of_build);
-  ConnectedParts connected =
-      connect_parts(plc, std::move(gathered.triangles), std::move(gathered.segments), close, options, most_overlaps);
-  check_overlaps(plc, connected);
+Examined examine_parts(UncheckedPlc parts, const PlcOptions& options, std::size_t limit, Examiner& examiner) {
+  auto& [plc, triangles, segments] = parts;
+  if (const std::vector<TrianglePair> pairs = find_duplicate_triangles(plc, triangles); !pairs.empty()) {
+    examiner.see_duplicates(parts, pairs);
+    std::vector<char> is_kept(triangles.size(), 1);
+    for (const TrianglePair& pair : pairs) is_kept[pair.second] = 0;
+    keep_triangles(is_kept, triangles);
+  }
+  examiner.see_whole(parts);
+  const std::vector<TrianglePair> close = make_conforming(plc.vertices, triangles);
+  split_segments_at_vertices(plc.vertices, segments);
+  examiner.see_conforming(parts);
+  ConnectedParts connected = connect_parts(plc, std::move(triangles), std::move(segments), close, options, limit);
+  examiner.see_overlaps(plc, connected);
+  return {std::move(plc), std::move(connected)};
+}
+
+Plc finish_plc(const InputPlc& input, Examined examined) {
+  auto& [plc, connected] = examined;
   auto& [parts, overlaps, tree] = connected;
   const auto& [triangles, segments, edges, match, patches] = parts;
-
-  report(progress, stage, 3, steps_of_build);
   RegionMap map = find_regions(input, plc, parts, tree);
   note_bytes(bytes_of(plc.world, plc.vertices, triangles.corners, triangles.markers, triangles.numbers, segments.ends,
                       edges.ends, patches.facet_of, map.of_side) +
@@ -153,6 +172,22 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
   collect_facets(triangles, patches, map, plc);
   plc.regions = std::move(map.regions);
   plc.idle_holes = std::move(map.idle_holes);
+  return std::move(plc);
+}
+
+Plc assemble_plc(const InputPlc& input, UncheckedPlc parts, const PlcOptions& options) {
+  split_segments_at_vertices(parts.plc.vertices, parts.segments);
+  ConnectedParts connected =
+      connect_parts(parts.plc, std::move(parts.triangles), std::move(parts.segments), {}, options, most_overlaps);
+  StrictExaminer({}).see_overlaps(parts.plc, connected);
+  return finish_plc(input, {std::move(parts.plc), std::move(connected)});
+}
+
+Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options, const Progress& progress) {
+  StrictExaminer examiner(progress);
+  Examined examined = examine_parts(std::move(gathered), options, most_overlaps, examiner);
+  report(progress, stage, 3, steps_of_build);
+  Plc plc = finish_plc(input, std::move(examined));
   report(progress, stage, steps_of_build, steps_of_build);
   return plc;
 }

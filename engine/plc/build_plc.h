@@ -4,6 +4,7 @@
 #include <span>
 
 #include "engine/base/progress.h"
+#include "engine/plc/connect_parts.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/input.h"
 #include "engine/plc/options.h"
@@ -25,11 +26,43 @@ struct UncheckedPlc {
 ///                    input and a remedy
 UncheckedPlc gather_plc(const InputPlc& input, const PlcOptions& options = {}, const Progress& progress = {});
 
+/// Is told what an examination finds, in the order in which building a PLC stops. To stop, throw.
+class Examiner {
+ public:
+  virtual ~Examiner() = default;
+  /// \param pairs  triangles with the same corners: the first of them, which stays, and another one, which goes
+  virtual void see_duplicates(const UncheckedPlc& parts, std::span<const TrianglePair> pairs) = 0;
+  virtual void see_whole(const UncheckedPlc& /*before anything is split*/) {}
+  virtual void see_conforming(const UncheckedPlc& /*split at the vertices that are on them*/) {}
+  virtual void see_overlaps(const Plc& plc, const ConnectedParts& connected) = 0;
+};
+
+/// What was examined; only the regions are missing.
+struct Examined {
+  Plc plc;  ///< as in `UncheckedPlc`
+  ConnectedParts connected;
+};
+
+/// The one examination of an input: are its triangles different, and does nothing overlap?
+///
+/// \param parts     Triangles that are known to be faces of one simplicial complex have nothing in common but corners
+///                  and edges, and no vertex is on one. So they are not tested with each other.
+/// \param limit     of each list of overlaps
+Examined examine_parts(UncheckedPlc parts, const PlcOptions& options, std::size_t limit, Examiner& examiner);
+
+/// Finds the regions of parts that do not overlap.
+///
+/// \throw InputError  an open surface, seeds outside
+Plc finish_plc(const InputPlc& input, Examined examined);
+
+/// The PLC of triangles that are known to be different and to meet in common corners and edges only.
+///
+/// \throw InputError  facets cover each other within the tolerance; as `finish_plc`
+Plc assemble_plc(const InputPlc& input, UncheckedPlc parts, const PlcOptions& options);
+
 /// Finds facets, segments and regions, and checks that they form a piecewise linear complex.
 ///
-/// \param gathered    from the input with the same options. Triangles that are known to be faces of one simplicial
-///                    complex have nothing in common but corners and edges, and no vertex is on one. So they are not
-///                    tested with each other.
+/// \param gathered    from the input with the same options; see `examine_parts`
 /// \throw InputError  duplicate facets, facets that cross or cover each other, an open surface, seeds outside; as
 ///                    `gather_plc`
 Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options = {},

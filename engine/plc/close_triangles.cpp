@@ -7,10 +7,11 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/contacts.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::plc {
 namespace {
@@ -39,48 +40,6 @@ class RoundedPlane {
   Point3 point_, normal_;
   double least_;  ///< of magnitudes with a certain sign
 };
-
-using SeenTriangle = std::array<PlanePoint, 3>;
-
-/// Is p, on the line of an edge, beyond this end of it?
-bool is_beyond(const PlanePoint& end, const PlanePoint& other_end, const PlanePoint& p) {
-  // Both products have the same sign, so rounding does not change that of their sum.
-  return (other_end[0] - end[0]) * (p[0] - end[0]) + (other_end[1] - end[1]) * (p[1] - end[1]) < 0;
-}
-
-/// Is the other triangle beyond the line of an edge of the one? It may have corners on that line, which are beyond one
-/// end of the edge, or common.
-bool divides(const SeenTriangle& one, const SeenTriangle& other, int common) {
-  const int sense = orient_in_plane(one[0], one[1], one[2]);
-  if (sense == 0) return false;
-  for (int k = 0; k < 3; ++k) {
-    const int next = k == 2 ? 0 : k + 1;
-    if (common > 0 && (k == 1 || (common == 2 && k == 2))) continue;
-    bool before = common == 0 || k == 0, after = common == 0 || k == 2;
-    for (int j = common; j < 3 && (before || after); ++j) {
-      const int side = orient_in_plane(one[k], one[next], other[j]);
-      if (side == -sense) continue;
-      before = before && side == 0 && is_beyond(one[k], one[next], other[j]);
-      after = after && side == 0 && is_beyond(one[next], one[k], other[j]);
-    }
-    if (before || after) return true;
-  }
-  return false;
-}
-
-/// Exchanges corners until those that both triangles have are the first of each. Returns their number.
-int put_common_first(VertexTriple& s, VertexTriple& t) {
-  int common = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = common; j < 3; ++j)
-      if (s[i] == t[j]) {
-        std::swap(s[i], s[common]);
-        std::swap(t[j], t[common]);
-        ++common;
-        break;
-      }
-  return common;
-}
 
 /// Quick tests of pairs of triangles.
 class TrianglePairs {
@@ -130,12 +89,6 @@ RawVector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& tri
   parallel_for(boxes.size(), 4096,
                [&](std::size_t t) { boxes[t] = bounding_box(points_of(vertices, triangles.corners[t])); });
   return boxes;
-}
-
-bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common) {
-  const SeenTriangle seen_s = {seen_along(axis, s[0]), seen_along(axis, s[1]), seen_along(axis, s[2])};
-  const SeenTriangle seen_t = {seen_along(axis, t[0]), seen_along(axis, t[1]), seen_along(axis, t[2])};
-  return divides(seen_s, seen_t, common) || divides(seen_t, seen_s, common);
 }
 
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,

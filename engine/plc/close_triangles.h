@@ -27,10 +27,4 @@ struct TrianglePair {
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
                                                std::span<const std::uint8_t> is_doubtful = {});
 
-/// Does the line of an edge of one of two triangles, seen along an axis, divide the two, so that they share nothing but
-/// common corners? False does not mean that they meet.
-///
-/// \param common  the number of corners that both have, up to two, the first of each
-bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common);
-
 }  // namespace ccdt::plc

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_regions.h"

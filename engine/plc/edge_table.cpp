@@ -7,8 +7,8 @@
 #include "engine/base/merge_sort.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 namespace {
@@ -145,7 +145,7 @@ void note_turned(std::uint32_t triangle, EdgeTable& edges) {
 }
 
 Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  const int sign = numbers::orient3d(a, b, c, d);
+  const int sign = orient3d(a, b, c, d);
   if (sign > 0) return Turn::below_180;
   if (sign < 0) return Turn::above_180;
   return on_same_side(a, b, c, d) ? Turn::zero : Turn::exactly_180;
@@ -168,7 +168,7 @@ std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const T
         const Turn to_s = turn_about(a, b, zero, apex(s)), to_t = turn_about(a, b, zero, apex(t));
         if (to_s != to_t) return to_s < to_t;
         if (to_s == Turn::below_180 || to_s == Turn::above_180) {
-          const int sign = numbers::orient3d(a, b, apex(s), apex(t));
+          const int sign = orient3d(a, b, apex(s), apex(t));
           if (sign != 0) return sign > 0;
         }
         return s < t;

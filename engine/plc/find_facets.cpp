@@ -9,7 +9,7 @@
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_runs.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::plc {
 

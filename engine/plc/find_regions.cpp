@@ -9,9 +9,9 @@
 
 #include "engine/base/parallel.h"
 #include "engine/base/shared_union_find.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/input_faults.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::plc {
 
@@ -39,7 +39,7 @@ IntegerPoint sixfold_centroid(const std::array<Point3, 3>& t) {
 // On which side of the line pq, seen from above, is the point x after its infinitesimal move?
 int side_of_moved(const IntegerPoint& p, const IntegerPoint& q, const IntegerPoint& x) {
   const std::int64_t ux = q[0] - p[0], uy = q[1] - p[1];
-  const int sign = numbers::sign_of(Wide(ux) * (x[1] - p[1]) - Wide(uy) * (x[0] - p[0]));
+  const int sign = sign_of(Wide(ux) * (x[1] - p[1]) - Wide(uy) * (x[0] - p[0]));
   if (sign != 0) return sign;
   if (uy != 0) return uy > 0 ? -1 : 1;
   return (ux > 0) - (ux < 0);
@@ -68,8 +68,8 @@ bool is_lower(const Crossing& a, const Crossing& b) {
 }
 
 Box box_above(const IntegerPoint& sixfold, bool upwards) {
-  const double scale = numbers::DyadicGrid::quantum / 6,
-               slack = numbers::DyadicGrid::quantum;  // more than the rounding of this box
+  const double scale = DyadicGrid::quantum / 6,
+               slack = DyadicGrid::quantum;  // more than the rounding of this box
   const Point3 p = {scale * static_cast<double>(sixfold[0]), scale * static_cast<double>(sixfold[1]),
                     scale * static_cast<double>(sixfold[2])};
   const Point3 margin = {slack, slack, slack};

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
 #include "engine/plc/input.h"

@@ -8,17 +8,17 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/base/flatness.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/contacts.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/planar/triangulation.h"
 #include "engine/plc/bent_facets.h"
-#include "engine/plc/find_overlaps.h"
 #include "engine/plc/input_faults.h"
-#include "engine/plc/integer_points.h"
 #include "engine/plc/projected_plane.h"
 
 namespace ccdt::plc {
@@ -271,7 +271,7 @@ std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
 
 void snap_vertices(const InputPlc& input, Plc& plc) {
   check_coordinates(input);
-  plc.grid = numbers::make_grid(input.vertices);
+  plc.grid = make_grid(input.vertices);
   const auto count = static_cast<std::uint32_t>(input.vertices.size());
   RawVector<Point3> snapped(count);
   const auto roundings = parallel_chunks(count, 4096, [&](std::size_t i, std::size_t end) {
@@ -332,6 +332,13 @@ void triangulate_polygons(const InputPlc& input, const Plc& plc, double toleranc
   if (!input.polygon_facets.empty()) FacetTriangulator(input, plc, tolerance, triangles, segments);
 }
 
+void keep_triangles(std::span<const char> is_kept, TriangleSet& triangles) {
+  TriangleSet kept;
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (is_kept[t] != 0) kept.add(triangles.corners[t], triangles.markers[t], triangles.numbers[t], triangles.faces[t]);
+  triangles = std::move(kept);
+}
+
 std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
   std::vector<char> has_area(triangles.size());
   parallel_for(triangles.size(), 4096, [&](std::size_t t) {
@@ -339,11 +346,7 @@ std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, Tria
     has_area[t] = a != b && b != c && c != a && !has_no_area(points_of(vertices, triangles.corners[t]));
   });
   const auto dropped = static_cast<std::uint32_t>(std::ranges::count(has_area, 0));
-  if (dropped == 0) return 0;
-  TriangleSet kept;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (has_area[t]) kept.add(triangles.corners[t], triangles.markers[t], triangles.numbers[t]);
-  triangles = std::move(kept);
+  if (dropped > 0) keep_triangles(has_area, triangles);
   return dropped;
 }
 

@@ -35,6 +35,11 @@ SegmentSet gather_segments(const InputPlc& input, const Plc& plc);
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments);
 
+/// Keeps some triangles, in their order.
+///
+/// \param is_kept  by triangle
+void keep_triangles(std::span<const char> is_kept, TriangleSet& triangles);
+
 /// Drops the triangles that have no area, exactly: they bound nothing. CAD programs use them to close the gap where a
 /// vertex of one facet is on the edge of another. The vertex stays, and splits that facet
 /// (`split_triangles_at_vertices`).

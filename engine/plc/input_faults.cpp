@@ -10,7 +10,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/base/sort_in_buckets.h"
 #include "engine/base/union_find.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::plc {
 
@@ -56,9 +56,7 @@ std::vector<TrianglePair> find_duplicate_triangles(const Plc& plc, const Triangl
   return pairs;
 }
 
-void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  const std::vector<TrianglePair> pairs = find_duplicate_triangles(plc, triangles);
-  if (pairs.empty()) return;
+void throw_duplicates(const Plc& plc, const TriangleSet& triangles, std::span<const TrianglePair> pairs) {
   const auto [s, t] = pairs.front();
   throw_input_error(plc, "two facets have the same corners", "remove one of the two",
                     world_points(plc, triangles.corners[s]), {triangles.numbers[s], triangles.numbers[t]});

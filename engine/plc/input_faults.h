@@ -14,8 +14,9 @@ namespace ccdt::plc {
 /// The triangles with the same corners as one before them, each with the first of these.
 std::vector<TrianglePair> find_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
 
-/// \throw InputError  a facet occurs twice
-void check_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
+/// \param pairs       not empty
+/// \throw InputError  always
+[[noreturn]] void throw_duplicates(const Plc& plc, const TriangleSet& triangles, std::span<const TrianglePair> pairs);
 
 /// \param pairs     not empty; the pair with the smallest facet numbers is named
 /// \param at_least  there may be more than in `pairs`

@@ -5,13 +5,13 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 namespace {
 
 bool is_multiple_of_quantum(const Point3& p) {
-  constexpr double quantum = numbers::DyadicGrid::quantum;
+  constexpr double quantum = DyadicGrid::quantum;
   const auto whole = [](double x) { return std::nearbyint(x / quantum) * quantum == x; };
   return whole(p.x) && whole(p.y) && whole(p.z);
 }
@@ -56,7 +56,7 @@ std::optional<PlaneSteps> steps_of_facet(std::span<const std::array<VertexId, 3>
         a = v;
       } else if (b.is_none()) {
         b = v;
-      } else if (!numbers::collinear(points[a], points[b], points[v])) {
+      } else if (!collinear(points[a], points[b], points[v])) {
         return steps_in_plane(points[a], points[b], points[v]);
       }
     }

@@ -8,7 +8,7 @@
 
 #include "engine/base/index.h"
 #include "engine/base/point.h"
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 
 namespace ccdt::plc {
 
@@ -49,7 +49,7 @@ struct Region {
 /// vertex of its triangulation; every boundary edge of a facet is a segment.
 struct Plc {
   std::string name;
-  numbers::DyadicGrid grid;
+  DyadicGrid grid;
   std::vector<Point3> vertices;           ///< grid units
   std::vector<Point3> world;              ///< the same vertices in the units of the input, unrounded
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex, its vertex

@@ -5,9 +5,9 @@
 
 #include "engine/base/index.h"
 #include "engine/base/point.h"
-#include "engine/numbers/grid.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/grid.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::plc {
 
@@ -23,7 +23,7 @@ struct ProjectedPlane {
   }
   int orient(VertexId a, VertexId b, VertexId c) const { return orient_along(axis, point(a), point(b), point(c)); }
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
-    return numbers::incircle_perturbed(flat(a), flat(b), flat(c), above(a), flat(d), {a, b, c, d});
+    return incircle_perturbed(flat(a), flat(b), flat(c), above(a), flat(d), {a, b, c, d});
   }
 
  private:
@@ -34,7 +34,7 @@ struct ProjectedPlane {
   }
   Point3 above(VertexId v) const {
     Point3 p = flat(v);
-    p.z = numbers::DyadicGrid::quantum;
+    p.z = DyadicGrid::quantum;
     return p;
   }
 };

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::protection {
 namespace {
@@ -107,7 +107,7 @@ bool DiametralSearch::spread(std::uint32_t first, WorstVertex& worst, const IsIn
 /// The new edge would be in the cavity, which is star-shaped around p: so the cell where it leaves v is of the cavity.
 bool would_be_joined(const delaunay::Delaunay& d, std::uint32_t v, const Point3& p) {
   const auto& corners = d.cells[cell_toward(d, v, p)].vertices;
-  return numbers::insphere(d.point(corners[0]), d.point(corners[1]), d.point(corners[2]), d.point(corners[3]), p) > 0;
+  return insphere(d.point(corners[0]), d.point(corners[1]), d.point(corners[2]), d.point(corners[3]), p) > 0;
 }
 
 }  // namespace ccdt::protection

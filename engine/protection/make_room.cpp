@@ -9,10 +9,10 @@
 #include <tuple>
 #include <utility>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/predicates.h"
 #include "engine/protection/voronoi_face.h"
 
 namespace ccdt::protection {
@@ -153,9 +153,8 @@ class HarmSearch {
   bool destroys(const Point3& p, std::uint32_t cell) const {
     const auto& v = d_.cells[cell].vertices;
     // A point on the sphere does not: its vertex will have a greater rank than those of the cell.
-    if (!d_.is_ghost(cell))
-      return numbers::insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p) > 0;
-    return numbers::orient3d(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), p) >= 0;
+    if (!d_.is_ghost(cell)) return insphere(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), d_.point(v[3]), p) > 0;
+    return orient3d(d_.point(v[0]), d_.point(v[1]), d_.point(v[2]), p) >= 0;
   }
 
   std::span<const Point3> points_;

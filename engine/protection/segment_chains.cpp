@@ -1,5 +1,6 @@
 #include "engine/protection/segment_chains.h"
 
+#include <algorithm>
 #include <tuple>
 #include <utility>
 

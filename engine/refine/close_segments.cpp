@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "engine/base/box_tree.h"
-#include "engine/base/closest_on_segment.h"
 #include "engine/base/index_lists.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/protection/segment_chains.h"
 #include "engine/refine/segment_fans.h"
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/numbers/grid.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/grid.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::refine {
 namespace {
@@ -44,7 +44,6 @@ std::optional<Point3> nearest_in_plane(const plc::PlaneSteps& steps, const Point
   const auto fits = [](double count) { return std::fabs(count) < 0x1p60; };
   if (!fits(i) || !fits(j)) return std::nullopt;
   // Exact in integers: the products may have more bits than a double, and more than 64 before they cancel.
-  using numbers::Int128;
   const auto combine = [&](double o, double s, double t) {
     return o + static_cast<double>(static_cast<Int128>(i) * static_cast<Int128>(s) +
                                    static_cast<Int128>(j) * static_cast<Int128>(t));
@@ -59,7 +58,7 @@ FacetPlane::FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool 
     : points_(points),
       exactly_flat_(exactly_flat),
       normal_(normalized(plc::sum_of_normals(triangles, points))),
-      axis_(plc::dominant_axis(normal_)) {
+      axis_(dominant_axis(normal_)) {
   if (exactly_flat_) {
     apex_ = points[triangles[0][0]];
     double extent = 1;
@@ -84,8 +83,7 @@ FacetPlane::FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool 
 /// same.
 Point3 FacetPlane::flattened(const Point3& p) const {
   const Point3 s = turned(p, axis_);
-  return {numbers::round_to_unit(0.25 * (first_ * s.x + shear_ * s.y)), numbers::round_to_unit(0.25 * second_ * s.y),
-          0};
+  return {round_to_unit(0.25 * (first_ * s.x + shear_ * s.y)), round_to_unit(0.25 * second_ * s.y), 0};
 }
 
 Point3 FacetPlane::at(VertexId v) const {
@@ -93,11 +91,11 @@ Point3 FacetPlane::at(VertexId v) const {
 }
 
 int FacetPlane::orient(VertexId a, VertexId b, VertexId c) const {
-  return numbers::orient3d(at(a), at(b), at(c), apex_);
+  return orient3d(at(a), at(b), at(c), apex_);
 }
 
 int FacetPlane::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
-  return numbers::incircle_perturbed(at(a), at(b), at(c), apex_, at(d), {a, b, c, d});
+  return incircle_perturbed(at(a), at(b), at(c), apex_, at(d), {a, b, c, d});
 }
 
 FacetTriangulation::FacetTriangulation(std::span<const std::array<VertexId, 3>> triangles, bool exactly_flat,

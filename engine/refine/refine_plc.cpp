@@ -13,6 +13,7 @@
 
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/hilbert_order.h"
+#include "engine/geometry/balls.h"
 #include "engine/refine/close_segments.h"
 #include "engine/refine/divide_segment.h"
 #include "engine/refine/facet_triangulation.h"
@@ -64,8 +65,7 @@ Shape shape_of(const std::array<Point3, 3>& t) {
     shape.corner = i;
   }
   shape.shortest = std::sqrt(shape.shortest);
-  const Point3 u = t[1] - t[0], v = t[2] - t[0], n = cross(u, v);
-  const Point3 offset = (0.5 / squared_length(n)) * (squared_length(u) * cross(v, n) + squared_length(v) * cross(n, u));
+  const Point3 offset = to_circumcenter(t[1] - t[0], t[2] - t[0]);
   shape.circumcenter = t[0] + offset;
   shape.radius = length(offset);
   return shape;

@@ -5,11 +5,11 @@
 #include <tuple>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::repair {
 namespace {
@@ -22,8 +22,7 @@ class TriangleArranger {
  public:
   TriangleArranger(std::span<const Point3> vertices, const plc::TriangleSet& triangles, std::span<const Cut> cuts,
                    std::span<const std::uint32_t> own)
-      : corners_(plc::points_of(vertices, triangles.corners[cuts[own[0]].triangle])),
-        axis_(plc::dominant_axis(corners_)) {
+      : corners_(plc::points_of(vertices, triangles.corners[cuts[own[0]].triangle])), axis_(dominant_axis(corners_)) {
     result_.triangle = cuts[own[0]].triangle;
     for (const std::uint32_t c : own) add(cuts[c], plc::points_of(vertices, triangles.corners[cuts[c].by]));
   }
@@ -73,14 +72,14 @@ class TriangleArranger {
 
   int side_of(const Line& line, std::uint32_t point) const {
     const ExactPoint& p = places_[point].exact;
-    return line.is_edge ? side_of_line(axis_, line.a, line.b, p) : repair::side_of(line.plane, p);
+    return line.is_edge ? side_of_line(axis_, line.a, line.b, p) : side_of_plane(line.plane, p);
   }
 
   void divide_cuts() {
     RawVector<Box> boxes;
     for (const Line& line : lines_) {
       const Box box = hull(box_of(places_[line.points[0]].rounded), box_of(places_[line.points[1]].rounded));
-      boxes.push_back(expanded(box, numbers::DyadicGrid::quantum));  // more than the rounding
+      boxes.push_back(expanded(box, DyadicGrid::quantum));  // more than the rounding
     }
     BoxTree(std::move(boxes)).for_each_pair([&](std::uint32_t i, std::uint32_t j) { divide(lines_[i], lines_[j]); });
   }

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "engine/base/box.h"
-#include "engine/base/box_tree.h"
-#include "engine/base/closest_on_segment.h"
 #include "engine/base/raw_vector.h"
 #include "engine/base/union_find.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "engine/geometry/integer_points.h"
 #include "engine/planar/triangulation.h"
-#include "engine/plc/integer_points.h"
 #include "engine/plc/projected_plane.h"
 
 namespace ccdt::repair {
@@ -41,7 +41,7 @@ class TriangleCutter {
   TriangleCutter(std::span<const Point3> vertices, const DividedTriangle& triangle)
       : vertices_(vertices),
         triangle_(triangle),
-        plane_{vertices, {}, plc::dominant_axis(plc::points_of(vertices, triangle.corners))},
+        plane_{vertices, {}, dominant_axis(plc::points_of(vertices, triangle.corners))},
         sense_(plane_.orient(triangle.corners[0], triangle.corners[1], triangle.corners[2])) {
     for (std::size_t k = 0; k < 3; ++k) {
       around_.push_back(triangle.corners[k]);
@@ -125,7 +125,7 @@ class TriangleCutter {
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
       const Point3 &a = vertices_[chain[i]], &b = vertices_[chain[i + 1]];
       if (plane_.orient(chain[i], chain[i + 1], v) * sense_ > 0) continue;
-      const auto axis = static_cast<std::size_t>(plc::dominant_axis(b - a));
+      const auto axis = static_cast<std::size_t>(dominant_axis(b - a));
       const auto [low, high] = std::minmax({as_array(a)[axis], as_array(b)[axis]});
       const double x = as_array(vertices_[v])[axis];
       if (low <= x && x <= high) return true;

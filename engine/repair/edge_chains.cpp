@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/integer_points.h"
 
 namespace ccdt::repair {
 
@@ -18,7 +18,7 @@ EdgeChains::EdgeChains(std::span<const Point3> vertices, std::vector<AtEdge> on_
     if (vertices_.size() == begin) return;
     // Rounding does not exchange points along the axis. Those that it makes equal there have some fixed order.
     const Point3 along = vertices[b] - vertices[a];
-    const auto axis = static_cast<std::size_t>(plc::dominant_axis(along));
+    const auto axis = static_cast<std::size_t>(dominant_axis(along));
     const double sense = as_array(along)[axis] < 0 ? -1 : 1;
     std::sort(vertices_.begin() + begin, vertices_.end(), [&](VertexId u, VertexId v) {
       const double x = sense * as_array(vertices[u])[axis], y = sense * as_array(vertices[v])[axis];

@@ -7,6 +7,7 @@
 
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/plc/gather_parts.h"
 
 namespace ccdt::repair {
 namespace {
@@ -81,15 +82,8 @@ std::size_t drop_equal_triangles(TriangleSet& triangles, Fins fins) {
   if (std::ranges::find(different.is_kept, 0) == different.is_kept.end()) return 0;
   if (fins == Fins::drop) drop_fins(triangles, different);
   const std::size_t before = triangles.size();
-  keep_triangles(different.is_kept, triangles);
+  plc::keep_triangles(different.is_kept, triangles);
   return before - triangles.size();
-}
-
-void keep_triangles(const std::vector<char>& is_kept, TriangleSet& triangles) {
-  TriangleSet kept;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (is_kept[t]) kept.add(triangles.corners[t], triangles.markers[t], triangles.numbers[t], triangles.faces[t]);
-  triangles = std::move(kept);
 }
 
 }  // namespace ccdt::repair

@@ -7,10 +7,6 @@
 
 namespace ccdt::repair {
 
-/// Keeps some triangles, in their order.
-/// \param is_kept  by triangle
-void keep_triangles(const std::vector<char>& is_kept, plc::TriangleSet& triangles);
-
 /// What remains of triangles with the same corners.
 enum class Fins {
   keep,  ///< the first one

@@ -5,22 +5,22 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/numbers/predicates.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/contacts.h"
+#include "engine/geometry/integer_points.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::repair {
 namespace {
 
 using plc::VertexTriple;
 using Triangle = std::array<Point3, 3>;
-using Signs = std::array<int, 3>;
 
 /// A triangle with what is known about it in a pair.
 struct Member {
   std::uint32_t number;
   VertexTriple corners;
   Triangle points;
-  Signs sides;                         ///< of the corners, against the plane of the other triangle
+  Sides sides;                         ///< of the corners, against the plane of the other triangle
   std::array<bool, 3> is_common = {};  ///< is the corner one of the other triangle too?
 };
 
@@ -30,7 +30,7 @@ Member make_member(std::span<const Point3> vertices, std::uint32_t number, const
   const Triangle plane = plc::points_of(vertices, other);
   for (std::size_t k = 0; k < 3; ++k) {
     member.is_common[k] = plc::has_corner(other, corners[k]);
-    member.sides[k] = member.is_common[k] ? 0 : numbers::orient3d(plane[0], plane[1], plane[2], member.points[k]);
+    member.sides[k] = member.is_common[k] ? 0 : orient3d(plane[0], plane[1], plane[2], member.points[k]);
   }
   return member;
 }
@@ -50,14 +50,6 @@ struct EndPoints {
   }
 };
 
-/// Is the point where the edge from p to q passes the plane of a triangle in the triangle?
-bool passes_through(const Point3& p, const Point3& q, const Triangle& t) {
-  const int u = numbers::orient3d(p, q, t[0], t[1]), v = numbers::orient3d(p, q, t[1], t[2]);
-  if (u * v < 0) return false;
-  const int w = numbers::orient3d(p, q, t[2], t[0]);
-  return u * w >= 0 && v * w >= 0;
-}
-
 bool has_edge(const VertexTriple& t, VertexId a, VertexId b) {
   return plc::has_corner(t, a) && plc::has_corner(t, b);
 }
@@ -67,8 +59,8 @@ void add_crossings(const Member& one, std::size_t k, const Member& other, int ax
   const Point3 &p = one.points[k], &q = one.points[plc::next_corner(k)];
   for (std::size_t j = 0; j < 3; ++j) {
     const Point3 &a = other.points[j], &b = other.points[plc::next_corner(j)];
-    if (plc::orient_along(axis, a, b, p) * plc::orient_along(axis, a, b, q) < 0 &&
-        plc::orient_along(axis, p, q, a) * plc::orient_along(axis, p, q, b) < 0)
+    if (orient_along(axis, a, b, p) * orient_along(axis, a, b, q) < 0 &&
+        orient_along(axis, p, q, a) * orient_along(axis, p, q, b) < 0)
       ends.add(meet_line(axis, p, q, a, b), false);
   }
 }
@@ -80,7 +72,7 @@ void add_ends(const Member& one, const Member& other, EndPoints& ends) {
     const std::size_t l = plc::next_corner(k);
     if (one.is_common[k]) ends.add(exactly(one.points[k]), true);
     if (one.sides[k] == 0 && one.sides[l] == 0) {
-      add_crossings(one, k, other, plc::dominant_axis(other.points), ends);
+      add_crossings(one, k, other, dominant_axis(other.points), ends);
     } else if (one.sides[k] * one.sides[l] < 0 && passes_through(one.points[k], one.points[l], other.points)) {
       if (!plane) plane = plane_of(other.points);
       ends.add(meet_plane(one.points[k], one.points[l], *plane), false);
@@ -100,7 +92,7 @@ void cut_across(const Member& s, const Member& t, std::vector<Cut>& cuts) {
 
 /// Cuts the one along the edges of the other in the same plane.
 void cut_along_edges(const Member& one, const Member& other, std::vector<Cut>& cuts) {
-  const int axis = plc::dominant_axis(one.points);
+  const int axis = dominant_axis(one.points);
   for (std::size_t k = 0; k < 3; ++k) {
     if (has_edge(one.corners, other.corners[k], other.corners[plc::next_corner(k)])) continue;
     EndPoints ends;
@@ -112,17 +104,12 @@ void cut_along_edges(const Member& one, const Member& other, std::vector<Cut>& c
   }
 }
 
-bool is_on_one_side(const Signs& sides) {
-  const auto [least, most] = std::minmax({sides[0], sides[1], sides[2]});
-  return least > 0 || most < 0;
-}
-
 void find_cuts_of(std::span<const Point3> vertices, const plc::TriangleSet& triangles, const plc::TrianglePair& pair,
                   std::vector<Cut>& cuts) {
   const VertexTriple &first = triangles.corners[pair.first], &second = triangles.corners[pair.second];
   const Member s = make_member(vertices, pair.first, first, second);
-  if (is_on_one_side(s.sides)) return;
-  if (s.sides == Signs{}) {
+  if (are_on_one_side(s.sides)) return;
+  if (s.sides == Sides{}) {
     const Member t = make_member(vertices, pair.second, second, first);
     cut_along_edges(s, t, cuts);
     cut_along_edges(t, s, cuts);
@@ -130,7 +117,7 @@ void find_cuts_of(std::span<const Point3> vertices, const plc::TriangleSet& tria
   }
   if (std::ranges::count(s.is_common, true) >= 2) return;
   const Member t = make_member(vertices, pair.second, second, first);
-  if (!is_on_one_side(t.sides)) cut_across(s, t, cuts);
+  if (!are_on_one_side(t.sides)) cut_across(s, t, cuts);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/geometry/exact_points.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/edge_table.h"
-#include "engine/repair/exact_points.h"
 
 namespace ccdt::repair {
 

@@ -13,9 +13,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/connect_parts.h"
-#include "engine/plc/gather_parts.h"
 #include "engine/plc/input_faults.h"
-#include "engine/repair/equal_triangles.h"
 #include "engine/repair/gather_soup.h"
 #include "engine/repair/open_edges.h"
 #include "engine/repair/orient_shells.h"
@@ -108,17 +106,6 @@ void find_vertex_faults(const InputPlc& input, const Plc& plc, Diagnosis& diagno
   std::move(unused).add_to(diagnosis);
 }
 
-/// Removes all but the first of equal triangles.
-void find_duplicates(plc::UncheckedPlc& soup, Diagnosis& diagnosis) {
-  FaultList list(FaultKind::duplicate_facets, true);
-  for (const auto& [s, t] : plc::find_duplicate_triangles(soup.plc, soup.triangles))
-    list.add([&, s = s, t = t] {
-      return place_of(soup.plc, soup.triangles.corners[t], {soup.triangles.numbers[s], soup.triangles.numbers[t]});
-    });
-  if (list.fault().count > 0) drop_equal_triangles(soup.triangles, Fins::keep);
-  std::move(list).add_to(diagnosis);
-}
-
 /// The facets of which there are more triangles than before.
 void find_split_facets(const Plc& plc, const TriangleSet& before, const TriangleSet& after, Diagnosis& diagnosis) {
   if (before.size() == after.size()) return;
@@ -177,19 +164,49 @@ void add_overlaps(const Plc& plc, const plc::ConnectedParts& connected, std::spa
   if (overlaps.size() == most_overlaps) list.fault().at_least = true;
 }
 
-void find_overlap_faults(const plc::UncheckedPlc& soup, std::span<const plc::TrianglePair> close,
-                         const plc::PlcOptions& options, Diagnosis& diagnosis) {
-  const plc::ConnectedParts connected =
-      plc::connect_parts(soup.plc, soup.triangles, soup.segments, close, options, most_overlaps);
-  FaultList covering(FaultKind::covering_facets, true), crossing(FaultKind::crossing_facets, true),
-      segments(FaultKind::crossing_segments, true);
-  add_overlaps(soup.plc, connected, connected.overlaps.covering, covering);
-  for (const Overlap& o : connected.overlaps.crossing)
-    add_overlaps(soup.plc, connected, {&o, 1}, o.between == Overlap::Between::covering_facets ? covering : crossing);
-  if (connected.overlaps.crossing.size() == most_overlaps) crossing.fault().at_least = true;
-  add_overlaps(soup.plc, connected, connected.overlaps.of_segments, segments);
-  for (FaultList* list : {&covering, &crossing, &segments}) std::move(*list).add_to(diagnosis);
-}
+/// Lists what an examination finds.
+class FaultLister : public plc::Examiner {
+ public:
+  FaultLister(bool is_surface, const Progress& progress, Diagnosis& diagnosis)
+      : is_surface_(is_surface), progress_(progress), diagnosis_(diagnosis) {}
+
+  void see_duplicates(const plc::UncheckedPlc& parts, std::span<const plc::TrianglePair> pairs) override {
+    const TriangleSet& triangles = parts.triangles;
+    FaultList list(FaultKind::duplicate_facets, true);
+    for (const auto& [s, t] : pairs)
+      list.add([&, s = s, t = t] {
+        return place_of(parts.plc, triangles.corners[t], {triangles.numbers[s], triangles.numbers[t]});
+      });
+    std::move(list).add_to(diagnosis_);
+  }
+  void see_whole(const plc::UncheckedPlc& parts) override { triangles_ = parts.triangles; }
+  void see_conforming(const plc::UncheckedPlc& parts) override {
+    const TriangleSet whole = std::exchange(triangles_, parts.triangles);
+    find_split_facets(parts.plc, whole, triangles_, diagnosis_);
+    report(progress_, check_stage, 2, check_steps);
+    find_edge_faults(parts.plc, triangles_, plc::make_edge_table(triangles_.corners), is_surface_, diagnosis_);
+  }
+  void see_overlaps(const Plc& plc, const plc::ConnectedParts& connected) override {
+    FaultList covering(FaultKind::covering_facets, true), crossing(FaultKind::crossing_facets, true),
+        segments(FaultKind::crossing_segments, true);
+    add_overlaps(plc, connected, connected.overlaps.covering, covering);
+    for (const Overlap& o : connected.overlaps.crossing)
+      add_overlaps(plc, connected, {&o, 1}, o.between == Overlap::Between::covering_facets ? covering : crossing);
+    if (connected.overlaps.crossing.size() == most_overlaps) crossing.fault().at_least = true;
+    add_overlaps(plc, connected, connected.overlaps.of_segments, segments);
+    for (FaultList* list : {&covering, &crossing, &segments}) std::move(*list).add_to(diagnosis_);
+    report(progress_, check_stage, 3, check_steps);
+  }
+
+  /// Conforming ones, as the file orients them.
+  const TriangleSet& triangles() const { return triangles_; }
+
+ private:
+  const bool is_surface_;
+  const Progress& progress_;
+  Diagnosis& diagnosis_;
+  TriangleSet triangles_;
+};
 
 /// The facets of the file whose normals point into the domain.
 ///
@@ -221,18 +238,18 @@ double volume_within(const Plc& plc, const std::vector<plc::VertexTriple>& outwa
 
 /// What only the finished PLC shows. An error that it has left, as that of a seed, is a fault of the domain.
 ///
-/// \param soup  without other errors
-void examine_domain(const InputPlc& input, const plc::UncheckedPlc& soup, const plc::PlcOptions& options,
-                    Diagnosis& diagnosis) {
+/// \param examined  without other errors
+/// \param given     its triangles as the file orients them
+void examine_domain(const InputPlc& input, plc::Examined examined, const TriangleSet& given, Diagnosis& diagnosis) {
   try {
-    const Plc plc = assemble_plc(input, soup, options);
+    const Plc plc = plc::finish_plc(input, std::move(examined));
     FaultList idle_holes(FaultKind::idle_holes, false);
     for (const Point3& seed : plc.idle_holes) idle_holes.add([&] { return place_at({&seed, 1}); });
     std::move(idle_holes).add_to(diagnosis);
     diagnosis.regions = static_cast<std::uint64_t>(std::ranges::count(plc.regions, true, &plc::Region::inside));
     const std::vector<plc::VertexTriple> outward = outward_triangles(plc);
     diagnosis.volume = volume_within(plc, outward);
-    if (input.inside == InputPlc::Inside::even_odd) find_inward_facets(plc, outward, soup.triangles, diagnosis);
+    if (input.inside == InputPlc::Inside::even_odd) find_inward_facets(plc, outward, given, diagnosis);
   } catch (const InputError& error) {
     const Place place{.points = error.place().points, .facets = error.place().facets};
     diagnosis.faults.push_back(
@@ -260,7 +277,6 @@ Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& pr
     return diagnosis;
   }
   report(progress, check_stage, 1, check_steps);
-  auto& [plc, triangles, segments] = soup.parts;
   FaultList polygons(FaultKind::polygons, true), without_area(FaultKind::facets_without_area, false);
   for (const Place& place : soup.no_polygons) polygons.add([&] { return place; });
   for (const std::uint32_t number : soup.without_area) without_area.add([&] { return Place{.facets = {number}}; });
@@ -268,19 +284,11 @@ Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& pr
   std::move(without_area).add_to(diagnosis);
   if (soup.input.bent.count > 0)
     diagnosis.faults.push_back({.kind = FaultKind::bent_facets, .count = soup.input.bent.count});
-  find_vertex_faults(input, plc, diagnosis);
-  find_duplicates(soup.parts, diagnosis);
+  find_vertex_faults(input, soup.parts.plc, diagnosis);
 
-  const TriangleSet whole = triangles;
-  const std::vector<plc::TrianglePair> close = plc::make_conforming(plc.vertices, triangles);
-  plc::split_segments_at_vertices(plc.vertices, segments);
-  find_split_facets(plc, whole, triangles, diagnosis);
-  report(progress, check_stage, 2, check_steps);
-  find_edge_faults(plc, triangles, plc::make_edge_table(triangles.corners), input.inside == InputPlc::Inside::even_odd,
-                   diagnosis);
-  find_overlap_faults(soup.parts, close, options, diagnosis);
-  report(progress, check_stage, 3, check_steps);
-  if (diagnosis.is_valid()) examine_domain(soup.input, soup.parts, options, diagnosis);
+  FaultLister lister(input.inside == InputPlc::Inside::even_odd, progress, diagnosis);
+  plc::Examined examined = plc::examine_parts(std::move(soup.parts), options, most_overlaps, lister);
+  if (diagnosis.is_valid()) examine_domain(soup.input, std::move(examined), lister.triangles(), diagnosis);
   std::ranges::stable_partition(diagnosis.faults, &Fault::is_error);
   report(progress, check_stage, check_steps, check_steps);
   return diagnosis;

@@ -5,14 +5,13 @@
 #include <iterator>
 #include <optional>
 
-#include "engine/base/box_tree.h"
-#include "engine/base/closest_on_segment.h"
-#include "engine/base/closest_on_triangle.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/box_tree.h"
+#include "engine/geometry/closest_point.h"
+#include "engine/geometry/exact_points.h"
+#include "engine/geometry/predicates.h"
 #include "engine/plc/close_triangles.h"
-#include "engine/repair/exact_points.h"
 
 namespace ccdt::repair {
 namespace {
@@ -33,8 +32,8 @@ EdgeEnds edge_of(const VertexTriple& t, std::size_t k) {
 std::optional<std::array<double, 2>> nearest_on_lines(const Point3& p, const Point3& u, const Point3& q,
                                                       const Point3& v) {
   const auto product = [](const Point3& a, const Point3& b) {
-    const plc::IntegerPoint x = plc::to_integers(a), y = plc::to_integers(b);
-    return Long(plc::Wide(x[0]) * y[0] + plc::Wide(x[1]) * y[1] + plc::Wide(x[2]) * y[2]);
+    const IntegerPoint x = to_integers(a), y = to_integers(b);
+    return Long(Wide(x[0]) * y[0] + Wide(x[1]) * y[1] + Wide(x[2]) * y[2]);
   };
   // Differences of these are tiny for nearly parallel lines.
   const Long uu = product(u, u), uv = product(u, v), vv = product(v, v);
@@ -167,13 +166,11 @@ class WeldFinder {
     const Point3 p = a + s * (b - a), q = c + t * (d - c);
     if (!are_near(p, q)) return std::nullopt;
     const Point3 middle = e.key() < f.key() ? p + 0.5 * (q - p) : q + 0.5 * (p - q);
-    const auto round = [](double x) {
-      return numbers::DyadicGrid::quantum * std::nearbyint(x / numbers::DyadicGrid::quantum);
-    };
+    const auto round = [](double x) { return DyadicGrid::quantum * std::nearbyint(x / DyadicGrid::quantum); };
     const Point3 point = {round(middle.x), round(middle.y), round(middle.z)};
     pair.welds.on_edges.emplace_back(e.key(), point);
     pair.welds.on_edges.emplace_back(f.key(), point);
-    pair.is_inexact = pair.is_inexact || numbers::orient3d(a, b, c, d) != 0;
+    pair.is_inexact = pair.is_inexact || orient3d(a, b, c, d) != 0;
     return std::pair{s, point};
   }
 

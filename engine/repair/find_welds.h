@@ -6,16 +6,16 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/grid.h"
+#include "engine/geometry/grid.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::repair {
 
 /// How near to each other things should touch, in grid units.
 struct WeldReach {
-  double edges = 4 * numbers::DyadicGrid::quantum;  ///< vertices and edges at edges and triangles. Rounding moves each
-                                                    ///< point by less than a quantum
-  double vertices = 2 * edges;  ///< greater: a vertex that is to be on an edge is not beside its end
+  double edges = 4 * DyadicGrid::quantum;  ///< vertices and edges at edges and triangles. Rounding moves each
+                                           ///< point by less than a quantum
+  double vertices = 2 * edges;             ///< greater: a vertex that is to be on an edge is not beside its end
 };
 
 /// A part of an edge, or a vertex (if a = b), that runs within a triangle but for the rounding to the grid.

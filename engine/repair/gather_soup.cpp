@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/index_lists.h"
 #include "engine/plc/bent_facets.h"
 
 namespace ccdt::repair {
@@ -45,12 +44,6 @@ Soup gather_soup(const plc::InputPlc& given, const plc::PlcOptions& options) {
       soup.no_polygons.push_back({.points = error.place().points, .facets = error.place().facets});
     }
   }
-}
-
-plc::Plc assemble_plc(const plc::InputPlc& input, plc::UncheckedPlc soup, const plc::PlcOptions& options) {
-  // Faces of one simplicial complex are not compared with each other.
-  soup.triangles.faces = all_indices(soup.triangles.size());
-  return plc::check_plc(input, std::move(soup), options);
 }
 
 }  // namespace ccdt::repair

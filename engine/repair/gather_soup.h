@@ -23,11 +23,4 @@ struct Soup {
 /// \throw InputError  coordinates that are not finite; no facet has an area
 Soup gather_soup(const plc::InputPlc& given, const plc::PlcOptions& options = {});
 
-/// The PLC of triangles that are known to meet in common corners and edges only, and whose segments are split at
-/// vertices. This is not tested again.
-///
-/// \param input  says what is inside
-/// \throw InputError  facets cover each other within the tolerance, an open surface, seeds outside
-plc::Plc assemble_plc(const plc::InputPlc& input, plc::UncheckedPlc soup, const plc::PlcOptions& options);
-
 }  // namespace ccdt::repair

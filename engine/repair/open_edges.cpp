@@ -12,8 +12,8 @@ namespace {
 /// The open edges and, of each vertex that they have, those at it.
 struct OpenGraph {
   std::vector<std::array<VertexId, 2>> ends;
-  std::unordered_map<VertexId, std::vector<std::uint32_t>> at;
-  std::vector<char> is_used;  ///< of each edge
+  std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> at;  ///< by vertex
+  std::vector<char> is_used;                                         ///< of each edge
 
   explicit OpenGraph(const plc::EdgeTable& edges) {
     for (std::uint32_t e = 0; e < edges.size(); ++e) {
@@ -42,7 +42,7 @@ struct OpenGraph {
 /// Walks on as long as there are edges. Whenever the walk meets itself, it leaves a loop behind.
 void walk(VertexId start, OpenGraph& graph, OpenEdges& found) {
   std::vector<VertexId> path = {start};
-  std::unordered_map<VertexId, std::size_t> place_of = {{start, 0}};
+  std::unordered_map<std::uint32_t, std::size_t> place_of = {{start, 0}};
   for (VertexId v = graph.follow(start); !v.is_none(); v = graph.follow(v)) {
     const auto [place, is_new] = place_of.try_emplace(v, path.size());
     if (is_new) {

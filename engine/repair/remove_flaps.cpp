@@ -7,7 +7,7 @@
 
 #include "engine/base/union_find.h"
 #include "engine/plc/edge_table.h"
-#include "engine/repair/equal_triangles.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/repair/open_edges.h"
 
 namespace ccdt::repair {
@@ -63,7 +63,7 @@ std::size_t remove_flaps(plc::UncheckedPlc& soup) {
     const auto flaps = static_cast<std::size_t>(std::ranges::count(is_kept, 0));
     if (flaps == 0 || flaps == soup.triangles.size()) return removed;
     removed += flaps;
-    keep_triangles(is_kept, soup.triangles);
+    plc::keep_triangles(is_kept, soup.triangles);
   }
 }
 

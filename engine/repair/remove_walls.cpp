@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdint>
 
-#include "engine/repair/gather_soup.h"
-
 namespace ccdt::repair {
 namespace {
 
@@ -50,7 +48,7 @@ std::vector<long> wind(const plc::Plc& plc, const OrientedSurface& given) {
 
 std::size_t remove_walls(plc::UncheckedPlc& soup, const OrientedSurface& given, const plc::InputPlc& input,
                          const plc::PlcOptions& options) {
-  const plc::Plc plc = assemble_plc(input, soup, options);
+  const plc::Plc plc = plc::assemble_plc(input, soup, options);
   const std::vector<long> times = wind(plc, given);
   plc::TriangleSet kept;
   std::size_t removed = 0;

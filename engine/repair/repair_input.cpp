@@ -117,7 +117,7 @@ std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t v
 /// \return  is the surface valid?
 bool turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::UncheckedPlc& soup) {
   try {
-    const plc::Plc plc = assemble_plc(input, soup, options);
+    const plc::Plc plc = plc::assemble_plc(input, soup, options);
     turn_like(outward_triangles(plc), plc.vertices.size(), soup.triangles.corners);
     return true;
   } catch (const InputError&) {

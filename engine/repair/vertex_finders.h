@@ -7,18 +7,18 @@
 #include <vector>
 
 #include "engine/base/hash_table.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/plc/build_plc.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::repair {
 
 /// Points and cells of the grid as keys.
 struct PointTraits {
-  static constexpr plc::IntegerPoint none() {
+  static constexpr IntegerPoint none() {
     constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
     return {most, most, most};
   }
-  static std::size_t hash(const plc::IntegerPoint& p) {
+  static std::size_t hash(const IntegerPoint& p) {
     std::uint64_t h = 0;
     for (const std::int64_t x : p) h = HashTraits<std::uint64_t>::hash(h ^ static_cast<std::uint64_t>(x));
     return static_cast<std::size_t>(h);
@@ -30,11 +30,11 @@ class VertexFinder {
  public:
   explicit VertexFinder(plc::Plc& plc) : plc_(plc) {
     known_.reserve(plc.vertices.size());
-    for (std::uint32_t v = 0; v < plc.vertices.size(); ++v) known_.insert(plc::to_integers(plc.vertices[v]), v);
+    for (std::uint32_t v = 0; v < plc.vertices.size(); ++v) known_.insert(to_integers(plc.vertices[v]), v);
   }
 
   VertexId at(const Point3& p) {
-    const auto [vertex, is_new] = known_.insert(plc::to_integers(p), static_cast<std::uint32_t>(plc_.vertices.size()));
+    const auto [vertex, is_new] = known_.insert(to_integers(p), static_cast<std::uint32_t>(plc_.vertices.size()));
     if (is_new) {
       plc_.vertices.push_back(p);
       plc_.world.push_back(plc_.grid.to_world(p));
@@ -44,7 +44,7 @@ class VertexFinder {
 
  private:
   plc::Plc& plc_;
-  HashTable<plc::IntegerPoint, std::uint32_t, PointTraits> known_;
+  HashTable<IntegerPoint, std::uint32_t, PointTraits> known_;
 };
 
 /// Finds the vertex that is nearest to a point, if it is within reach, or makes one.
@@ -58,13 +58,13 @@ class NearVertexFinder {
   }
 
   VertexId at(const Point3& p) {
-    const plc::IntegerPoint cell = cell_of(p);
+    const IntegerPoint cell = cell_of(p);
     VertexId nearest;
     double least = reach_ * reach_;
     for (std::int64_t x = cell[0] - 1; x <= cell[0] + 1; ++x)
       for (std::int64_t y = cell[1] - 1; y <= cell[1] + 1; ++y)
         for (std::int64_t z = cell[2] - 1; z <= cell[2] + 1; ++z) {
-          const plc::IntegerPoint other = {x, y, z};
+          const IntegerPoint other = {x, y, z};
           for (VertexId v = last_in_cell_.get(other, {}); !v.is_none(); v = before_[v]) {
             const double distance = squared_length(plc_.vertices[v] - p);
             if (distance > least || (distance == least && v > nearest)) continue;
@@ -81,7 +81,7 @@ class NearVertexFinder {
   }
 
  private:
-  plc::IntegerPoint cell_of(const Point3& p) const {
+  IntegerPoint cell_of(const Point3& p) const {
     const auto cell = [&](double x) { return static_cast<std::int64_t>(std::floor(x / reach_)); };
     return {cell(p.x), cell(p.y), cell(p.z)};
   }
@@ -94,7 +94,7 @@ class NearVertexFinder {
 
   plc::Plc& plc_;
   double reach_;
-  HashTable<plc::IntegerPoint, VertexId, PointTraits> last_in_cell_;
+  HashTable<IntegerPoint, VertexId, PointTraits> last_in_cell_;
   std::vector<VertexId> before_;  // of a vertex: the one before it in its cell
 };
 

@@ -95,21 +95,22 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
 }
 
 InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(&background) {
-  std::vector<SizedPlace> tetrahedra, vertices;
-  for (std::uint32_t t = 0; t < background.tetrahedra.size(); ++t) {
-    const auto& v = background.tetrahedra[t];
+  RawVector<Box> tetrahedra, vertices;
+  RawVector<double> least_sizes, sizes;
+  for (const auto& v : background.tetrahedra) {
     std::array<Point3, 4> corners;
     double size = HUGE_VAL;
     for (unsigned i = 0; i < 4; ++i) {
       corners[i] = background.vertices[v[i]];
       size = std::min(size, background.sizes[v[i]]);
     }
-    tetrahedra.push_back({bounding_box(corners), size, t});
+    tetrahedra.push_back(bounding_box(corners));
+    least_sizes.push_back(size);
   }
-  for (std::uint32_t v = 0; v < background.vertices.size(); ++v)
-    vertices.push_back({{background.vertices[v], background.vertices[v]}, background.sizes[v], v});
-  tetrahedra_ = SizeTree(tetrahedra);
-  vertices_ = SizeTree(vertices);
+  for (const Point3& p : background.vertices) vertices.push_back(box_of(p));
+  for (const double size : background.sizes) sizes.push_back(size);
+  tetrahedra_ = BoxTree(std::move(tetrahedra), least_sizes);
+  vertices_ = BoxTree(std::move(vertices), sizes);
 }
 
 double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) const {
@@ -125,11 +126,11 @@ double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) co
 
 bool InterpolatedSizes::is_below(const Box& box, double bound) const {
   const auto least_if_meeting = [&](const Box& other, double size) { return other.meets(box) ? size : HUGE_VAL; };
-  if (tetrahedra_.any(bound, least_if_meeting,
-                      [&](const SizedPlace& item) { return least_in(box, item.number) < bound; }))
+  if (tetrahedra_.any_below(bound, least_if_meeting,
+                            [&](const BoxTree::Item& item) { return least_in(box, item.number) < bound; }))
     return true;
-  const bool meets = tetrahedra_.any(HUGE_VAL, least_if_meeting,
-                                     [&](const SizedPlace& item) { return least_in(box, item.number) < HUGE_VAL; });
+  const bool meets = tetrahedra_.any_below(
+      HUGE_VAL, least_if_meeting, [&](const BoxTree::Item& item) { return least_in(box, item.number) < HUGE_VAL; });
   return !meets && is_below_outside(box, bound);
 }
 
@@ -137,14 +138,14 @@ bool InterpolatedSizes::is_below(const Box& box, double bound) const {
 bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
   double farthest = HUGE_VAL;
   const auto distance = [&](const Box& other, double) { return squared_distance(other, box); };
-  vertices_.any(farthest, distance, [&](const SizedPlace& item) {
+  vertices_.any_below(farthest, distance, [&](const BoxTree::Item& item) {
     farthest = std::min(farthest, squared_farthest_distance(box, item.box.low));
     return false;
   });
   const auto size_if_near = [&](const Box& other, double size) {
     return distance(other, size) <= farthest ? size : HUGE_VAL;
   };
-  return vertices_.any(bound, size_if_near, [](const SizedPlace&) { return true; });
+  return vertices_.any_below(bound, size_if_near, [](const BoxTree::Item&) { return true; });
 }
 
 }  // namespace ccdt::sizes

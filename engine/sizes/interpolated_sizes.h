@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "engine/base/box.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/sizes/background_sizes.h"
-#include "engine/sizes/size_tree.h"
 
 namespace ccdt::sizes {
 
@@ -24,7 +24,7 @@ class InterpolatedSizes {
   bool is_below_outside(const Box& box, double bound) const;
 
   const BackgroundSizes* background_;
-  SizeTree tetrahedra_, vertices_;
+  BoxTree tetrahedra_, vertices_;
 };
 
 /// The least value within both a tetrahedron and a box of the linear function that has the given values at the corners;

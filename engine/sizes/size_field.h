@@ -5,17 +5,22 @@
 
 #include "engine/base/box.h"
 #include "engine/base/point.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/sizes/interpolated_sizes.h"
-#include "engine/sizes/size_tree.h"
 
 namespace ccdt::sizes {
+
+/// A place in space and the edge length that is wanted there.
+struct SizedPlace {
+  Box box;
+  double size;
+};
 
 /// The target edge length in space: what lattices, refinement and remeshing ask for.
 class SizeField {
  public:
   /// The least of `largest` and, over some places, of (size + grading * distance).
-  SizeField(double largest, double grading, std::span<const SizedPlace> places)
-      : largest_(largest), grading_(grading), places_(places) {}
+  SizeField(double largest, double grading, std::span<const SizedPlace> places);
   /// The least of `largest` and the sizes of a mesh, which are linear within its tetrahedra.
   ///
   /// \param background  has tetrahedra; must outlive this
@@ -36,7 +41,7 @@ class SizeField {
 
  private:
   double largest_ = 0, grading_ = 0;
-  SizeTree places_;
+  BoxTree places_;
   std::optional<InterpolatedSizes> interpolated_;
 };
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <utility>
 
-#include "engine/base/closest_on_segment.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/sizes/budget.h"
 #include "engine/sizes/sample_cell.h"
 #include "engine/sizes/walls.h"
@@ -58,7 +58,7 @@ class Strips {
   };
   struct Edges {
     std::vector<FacetEdge> edges;
-    SizeTree tree;
+    BoxTree tree;
   };
   struct Piece {
     std::array<Point3, 2> ends;
@@ -95,13 +95,13 @@ class Strips {
   void begin(std::vector<FacetEdge> edges) {
     if (edges.size() <= 3) return;  // in a triangle, all edges meet
     const auto facet = static_cast<std::uint32_t>(facets_.size());
-    std::vector<SizedPlace> items;
+    RawVector<Box> boxes;
     for (std::uint32_t i = 0; i < edges.size(); ++i) {
       const auto [a, b] = edges[i].ends;
-      items.push_back({hull(box_of(point(a)), box_of(point(b))), 0, i});
+      boxes.push_back(hull(box_of(point(a)), box_of(point(b))));
       open_.push_back({{point(a), point(b)}, facet, i, i});
     }
-    facets_.push_back({std::move(edges), SizeTree(items)});
+    facets_.push_back({std::move(edges), BoxTree(std::move(boxes))});
   }
 
   void measure(Piece piece, double least, std::vector<SizedPlace>& places) {
@@ -140,7 +140,7 @@ class Strips {
     };
     try_edge(piece.near);
     const auto distance = [&](const Box& box, double) { return std::sqrt(squared_distance(box, p)); };
-    facet.tree.any(width, distance, [&](const SizedPlace& item) {
+    facet.tree.any_below(width, distance, [&](const BoxTree::Item& item) {
       try_edge(item.number);
       return false;
     });

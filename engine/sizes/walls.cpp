@@ -4,17 +4,12 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/closest_on_triangle.h"
+#include "engine/geometry/closest_point.h"
 
 namespace ccdt::sizes {
 namespace {
 
 constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
-
-Point3 nearest_on_triangle(const Triangle& t, const Point3& p) {
-  const std::array weights = closest_on_triangle(p, t);
-  return t[0] + (weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0]));
-}
 
 }  // namespace
 
@@ -30,9 +25,9 @@ Walls::Walls(const plc::Plc& plc, WallRules rules)
         if (facets_of_vertex_[v].empty() || facets_of_vertex_[v].back() != f) facets_of_vertex_[v].push_back(f);
     }
   }
-  std::vector<SizedPlace> items;
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) items.push_back({bounding_box(triangles_[i].corners), 0, i});
-  tree_ = SizeTree(items);
+  RawVector<Box> boxes;
+  for (const FacetTriangle& t : triangles_) boxes.push_back(bounding_box(t.corners));
+  tree_ = BoxTree(std::move(boxes));
 }
 
 void Walls::measure(double least, std::vector<SizedPlace>& places) {
@@ -108,7 +103,7 @@ void Walls::look(FacetId facet, const Point3& normal, int side, const Point3& p,
   const auto try_triangle = [&](std::uint32_t number) {
     const FacetTriangle& t = triangles_[number];
     if (met_by_[t.facet] == facet || std::fabs(dot(t.normal, normal)) < rules_.least_cosine) return;
-    const Point3 across = nearest_on_triangle(t.corners, p) - p;
+    const Point3 across = weighted_point(closest_on_triangle(p, t.corners), t.corners) - p;
     const double found = length(across);
     if (found >= nearest || dot(across, direction) <= 0.5 * found) return;
     if (region_beside(t.facet, dot(across, t.normal) > 0 ? 1 : 0) != region_beside(facet, side)) return;
@@ -122,7 +117,7 @@ void Walls::look(FacetId facet, const Point3& normal, int side, const Point3& p,
     const double least = std::sqrt(squared_distance(box, p));
     return height > 0 && least < 2 * height ? least : HUGE_VAL;
   };
-  tree_.any(nearest, distance, [&](const SizedPlace& item) {
+  tree_.any_below(nearest, distance, [&](const BoxTree::Item& item) {
     try_triangle(item.number);
     return false;
   });

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "engine/base/hash_table.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/plc.h"
 #include "engine/sizes/sample_cell.h"
-#include "engine/sizes/size_tree.h"
+#include "engine/sizes/size_field.h"
 #include "engine/sizes/triangle.h"
 
 namespace ccdt::sizes {
@@ -72,7 +73,7 @@ class Walls {
   std::vector<std::vector<FacetId>> facets_of_vertex_;
   std::vector<FacetId> met_by_;  // by facet: the last facet that searched and shares a vertex with it
   std::vector<FacetTriangle> triangles_;
-  SizeTree tree_;
+  BoxTree tree_;
   HashTable<SampleCell, Sample> known_;
   std::vector<Piece> open_;
 };

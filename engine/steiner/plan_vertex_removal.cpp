@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tets/crossing_faces.h"
 #include "engine/tets/swaps.h"
 
@@ -162,7 +162,7 @@ class Book {
     const std::uint32_t to = neighbors_[end];
     const auto is_positive = [&](tets::NewCell& cell) {
       const auto& [a, b, c, d] = cell.vertices;
-      if (numbers::orient3d(x_.point(a), x_.point(b), x_.point(c), x_.point(d)) <= 0) return false;
+      if (orient3d(x_.point(a), x_.point(b), x_.point(c), x_.point(d)) <= 0) return false;
       cell.quality = x_.quality_of(cell.vertices);
       return true;
     };

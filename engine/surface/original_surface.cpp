@@ -6,15 +6,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "engine/base/closest_on_triangle.h"
-#include "engine/base/count_work.h"
 #include "engine/base/point.h"
 #include "engine/base/portable_math.h"
 #include "engine/base/simplex_map.h"
 #include "engine/base/union_find.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/plc/integer_points.h"
 
 namespace ccdt::surface {
 
@@ -294,92 +292,41 @@ class SurfaceCutter {
   OriginalSurface surface_;
 };
 
-// ---- The closest point of a patch -----------------------------------------------------------------------------------
-
-// The nearest point of a triangle: a + v ab + w ac. A coordinate that all three corners share stays exactly the same.
-Foot closest_foot(const Point3& p, const std::array<Point3, 3>& t) {
-  Foot foot;
-  foot.weights = closest_on_triangle(p, t);
-  foot.point = t[0] + (foot.weights[1] * (t[1] - t[0]) + foot.weights[2] * (t[2] - t[0]));
-  foot.squared_distance = squared_length(p - foot.point);
-  return foot;
-}
-
 }  // namespace
 
 OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness) {
   return SurfaceCutter(input, plc, sharp_angle, flatness).cut();
 }
 
-ClosestPoint::ClosestPoint(const OriginalSurface& surface) : surface_(surface), items_(surface.triangles.size()) {
-  std::iota(items_.begin(), items_.end(), 0u);
-  std::stable_sort(items_.begin(), items_.end(),
-                   [&](std::uint32_t s, std::uint32_t t) { return surface.patch_of[s] < surface.patch_of[t]; });
-  nodes_.resize(surface.patch_markers.size());
-  for (std::uint32_t begin = 0, end = 0; begin < items_.size(); begin = end) {
-    const std::uint32_t patch = surface.patch_of[items_[begin]];
-    while (end < items_.size() && surface.patch_of[items_[end]] == patch) ++end;
-    build(patch, begin, end);
+ClosestPoint::ClosestPoint(const OriginalSurface& surface)
+    : surface_(surface),
+      triangles_(group_indices(surface.patch_markers.size(), surface.triangles.size(),
+                               [&](std::size_t t) { return surface.patch_of[t]; })) {
+  for (std::size_t patch = 0; patch < surface.patch_markers.size(); ++patch) {
+    RawVector<Box> boxes;
+    for (const std::uint32_t t : triangles_.of(patch)) boxes.push_back(bounding_box(surface.corners(t)));
+    trees_.emplace_back(std::move(boxes));
   }
-}
-
-void ClosestPoint::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Box box = empty_box;
-  for (std::uint32_t i = begin; i < end; ++i) box = hull(box, bounding_box(surface_.corners(items_[i])));
-  constexpr std::uint32_t leaf_size = 4;
-  nodes_[node] = {box, begin, end - begin};
-  if (end - begin <= leaf_size) {
-    // The order that nth_element leaves depends on the standard library.
-    std::sort(items_.begin() + begin, items_.begin() + end);
-    return;
-  }
-  const int axis = plc::dominant_axis(box.high - box.low);
-  const auto key = [&](std::uint32_t t) {
-    const std::array<Point3, 3> c = surface_.corners(t);
-    return as_array(c[0])[axis] + as_array(c[1])[axis] + as_array(c[2])[axis];
-  };
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
-                   [&](std::uint32_t s, std::uint32_t t) {
-                     const double a = key(s), b = key(t);
-                     return a != b ? a < b : s < t;
-                   });
-  const auto child = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = child;
-  nodes_[node].count = 0;
-  nodes_.resize(nodes_.size() + 2);
-  build(child, begin, middle);
-  build(child + 1, middle, end);
 }
 
 Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
-  Foot foot = closest_foot(p, surface_.corners(triangle));
-  foot.triangle = triangle;
-  return foot;
+  const std::array<Point3, 3> t = surface_.corners(triangle);
+  const std::array<double, 3> weights = closest_on_triangle(p, t);
+  const Point3 point = weighted_point(weights, t);
+  return {triangle, weights, point, squared_length(p - point)};
 }
 
 // The nearest point, or the first one that is near enough.
 Foot ClosestPoint::search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const {
   Foot best = foot_on(near, p);
-  std::array<std::uint32_t, 64> stack;  // deeper than any tree of 2^32 items, as each node is halved
-  std::size_t size = 0;
-  stack[size++] = patch;
-  while (size > 0 && best.squared_distance > squared_enough) {
-    const Node& node = nodes_[stack[--size]];
-    ++work_done.box_tree_nodes;
-    if (squared_distance(node.box, p) >= best.squared_distance) continue;
-    if (node.count == 0) {
-      const bool first_is_nearer =
-          squared_distance(nodes_[node.first].box, p) < squared_distance(nodes_[node.first + 1].box, p);
-      stack[size++] = first_is_nearer ? node.first + 1 : node.first;
-      stack[size++] = first_is_nearer ? node.first : node.first + 1;
-      continue;
-    }
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const Foot foot = foot_on(items_[i], p);
-      if (foot.squared_distance < best.squared_distance) best = foot;
-    }
-  }
+  const auto distance = [&](const Box& box, double) { return squared_distance(box, p); };
+  const auto is_near_enough = [&] { return best.squared_distance <= squared_enough; };
+  if (is_near_enough()) return best;
+  trees_[patch].any_below(best.squared_distance, distance, [&](const BoxTree::Item& item) {
+    const Foot foot = foot_on(triangles_.of(patch)[item.number], p);
+    if (foot.squared_distance < best.squared_distance) best = foot;
+    return is_near_enough();
+  });
   return best;
 }
 

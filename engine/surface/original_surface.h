@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/base/box_tree.h"
+#include "engine/base/index_lists.h"
 #include "engine/base/point.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
 
@@ -69,7 +70,7 @@ struct Foot {
   double squared_distance = 0;
 };
 
-/// Finds the nearest point of a patch of the original surface: a hierarchy of boxes for each patch.
+/// Finds the nearest point of a patch of the original surface.
 class ClosestPoint {
  public:
   explicit ClosestPoint(const OriginalSurface& surface);
@@ -84,18 +85,12 @@ class ClosestPoint {
   Point3 normal_at(const Foot& foot) const;
 
  private:
-  // The children of an inner node are `first` and `first` + 1; a leaf has the `count` items from `first`.
-  struct Node {
-    Box box;
-    std::uint32_t first = 0, count = 0;
-  };
   Foot search(std::uint32_t patch, const Point3& p, std::uint32_t near, double squared_enough) const;
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   Foot foot_on(std::uint32_t triangle, const Point3& p) const;
 
   const OriginalSurface& surface_;
-  std::vector<std::uint32_t> items_;  // triangles
-  std::vector<Node> nodes_;           // the root of patch p is node p
+  IndexLists triangles_;        // of each patch
+  std::vector<BoxTree> trees_;  // of these, by patch
 };
 
 }  // namespace ccdt::surface

@@ -11,12 +11,12 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
+#include "engine/geometry/integer_points.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/find_facets.h"
 #include "engine/plc/find_overlaps.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/plc/integer_points.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
@@ -163,7 +163,7 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
   plc::TriangleSet triangles = plc::gather_triangles(surface, plc);
   std::vector<Point3> places;
   for (const plc::VertexTriple& t : triangles.corners)
-    if (plc::has_no_area(plc::points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
+    if (has_no_area(plc::points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
   if (!places.empty()) return places;
 
   plc::EdgeTable edges = plc::make_edge_table(triangles.corners);

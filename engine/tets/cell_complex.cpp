@@ -8,7 +8,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_buckets.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 
@@ -160,7 +160,7 @@ bool CellComplex::all_positive(const Change& change) const {
   };
   return std::ranges::all_of(change.new_cells, [&](const NewCell& cell) {
     const auto& v = cell.vertices;
-    return numbers::orient3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0;
+    return orient3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) > 0;
   });
 }
 

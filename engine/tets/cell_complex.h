@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/box_tree.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_axis.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/tets/cell_quality.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/filters.h"
+#include "engine/geometry/filters.h"
 
 namespace ccdt::tets {
 

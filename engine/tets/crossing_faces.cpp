@@ -4,39 +4,20 @@
 #include <array>
 #include <vector>
 
-#include "engine/numbers/predicates.h"
-#include "engine/plc/find_overlaps.h"
-#include "engine/plc/integer_points.h"
+#include "engine/geometry/contacts.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 namespace {
 
-/// The points of the corners, from the given one on.
-std::array<Point3, 3> points_from(const CellComplex& x, const Triangle& t, std::uint32_t first) {
-  const auto i = static_cast<std::size_t>(std::ranges::find(t, first) - t.begin());
-  return {x.point(t[i]), x.point(t[(i + 1) % 3]), x.point(t[(i + 2) % 3])};
-}
-
-/// Are two triangles with the common edge ab on the same side of it in one plane?
-bool overlap_at_edge(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  if (numbers::orient3d(a, b, c, d) != 0) return false;
-  const int axis = plc::axis_across({a, b, c});
-  return plc::orient_along(axis, a, b, c) == plc::orient_along(axis, a, b, d);
+std::array<Point3, 3> points_of(const CellComplex& x, const Triangle& t) {
+  return {x.point(t[0]), x.point(t[1]), x.point(t[2])};
 }
 
 /// Do two triangles meet in more than common corners and edges?
-bool cross(const CellComplex& x, const Triangle& s, const Triangle& t) {
-  const auto common = std::ranges::count_if(s, [&](std::uint32_t v) { return has(t, v); });
-  if (common == 3) return true;
-  if (common == 0) return plc::meet_triangles(points_from(x, s, s[0]), points_from(x, t, t[0])).has_value();
-  if (common == 1) {
-    const std::uint32_t corner = *std::ranges::find_if(s, [&](std::uint32_t v) { return has(t, v); });
-    return plc::meet_triangles_at_corner(points_from(x, s, corner), points_from(x, t, corner)).has_value();
-  }
-  const std::uint32_t apex = *std::ranges::find_if(s, [&](std::uint32_t v) { return !has(t, v); });
-  const std::uint32_t other = *std::ranges::find_if(t, [&](std::uint32_t v) { return !has(s, v); });
-  const auto [c, a, b] = points_from(x, s, apex);
-  return overlap_at_edge(a, b, c, x.point(other));
+bool cross(const CellComplex& x, Triangle s, Triangle t) {
+  const int common = put_common_first(s, t);
+  return common == 3 || meet_elsewhere(points_of(x, s), points_of(x, t), common).has_value();
 }
 
 /// The new faces of a facet. The space between them and the old ones consists of tetrahedra, each of a new face and a
@@ -84,7 +65,7 @@ class FacetChange {
   }
 
   int orient(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const {
-    return numbers::orient3d(x_.point(a), x_.point(b), x_.point(c), x_.point(d));
+    return orient3d(x_.point(a), x_.point(b), x_.point(c), x_.point(d));
   }
   int side_of(const Triangle& t, std::uint32_t v) const { return orient(t[0], t[1], t[2], v); }
 

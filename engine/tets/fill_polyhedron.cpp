@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 namespace {
@@ -81,7 +81,8 @@ double PolyhedronFiller::quality_on(const CornerTriangle& t, Corner apex) const 
 bool PolyhedronFiller::join_to_vertex() {
   double best_quality = least_;
   std::optional<Corner> best;
-  for (Corner v = 0; v < vertices_.size(); ++v) {
+  const auto corners = static_cast<Corner>(vertices_.size());
+  for (Corner v = 0; v < corners; ++v) {
     const double quality = quality_from(v, best_quality);
     if (quality > best_quality && keeps_all_faces(v)) best_quality = quality, best = v;
   }
@@ -95,7 +96,7 @@ bool PolyhedronFiller::join_to_vertex() {
 /// The quality of the worst tetrahedron between a vertex and the faces; something up to `least` if it is not better.
 double PolyhedronFiller::quality_from(Corner v, double least) const {
   const auto sees = [&](const CornerTriangle& t) {
-    return has(t, v) || numbers::orient3d(points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > 0;
+    return has(t, v) || orient3d(points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > 0;
   };
   if (!std::ranges::all_of(hull_, sees)) return least;
   double worst = std::numeric_limits<double>::infinity();
@@ -139,7 +140,8 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
 /// Is there a vertex that makes a good tetrahedron with a face? The least quality is often that of the best one on a
 /// face that must stay. Then no search succeeds.
 bool PolyhedronFiller::has_apex(const CornerTriangle& t) const {
-  for (Corner v = 0; v < vertices_.size(); ++v)
+  const auto corners = static_cast<Corner>(vertices_.size());
+  for (Corner v = 0; v < corners; ++v)
     if (!has(t, v) && quality_on(t, v) > least_) return true;
   return false;
 }

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/base/count_work.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tets/crossing_faces.h"
 
 namespace ccdt::tets {
@@ -181,8 +181,7 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   if (!std::ranges::all_of(change.faces, [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, facet); }))
     return false;
   // At an edge where less than a half turn is inside, the new faces cut off a tetrahedron. At others they add one.
-  const bool takes_space =
-      other.size == 0 && numbers::orient3d(x.point(a), x.point(b), x.point(first), x.point(last)) < 0;
+  const bool takes_space = other.size == 0 && orient3d(x.point(a), x.point(b), x.point(first), x.point(last)) < 0;
   if (!takes_space) return true;
   change.space_taken = bounding_box(std::array{x.point(a), x.point(b), x.point(first), x.point(last)});
   return !would_cross(x, change);

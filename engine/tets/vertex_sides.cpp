@@ -4,12 +4,11 @@
 #include <cstring>
 
 #include "engine/base/box.h"
-#include "engine/numbers/filters.h"
-#include "engine/numbers/predicates.h"
+#include "engine/geometry/filters.h"
+#include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
 
-using numbers::IntegerLanes, numbers::Lanes;
 
 namespace {
 
@@ -23,7 +22,7 @@ void VertexSides::load(std::span<const Point3> points) {
   points_.assign(points.begin(), points.end());
   const Box box = bounding_box(points);
   const Point3 size = box.high - box.low;
-  error_ = numbers::orient3d_error * size.x * size.y * size.z;
+  error_ = orient3d_error * size.x * size.y * size.z;
   for (std::size_t i = 0; i < points.size(); ++i) {
     x_[i] = points[i].x;
     y_[i] = points[i].y;
@@ -59,7 +58,7 @@ CCDT_ALWAYS_INLINE Sides VertexSides::find_sides(Corner a, Corner b, Corner c) c
   for (; rest != 0; rest &= rest - 1) {
     const auto d = static_cast<Corner>(std::countr_zero(rest));
     // Known if c is the last of the four.
-    const int side = d < c ? -of(a, b, d).side(c) : numbers::orient3d(origin, points_[b], points_[c], points_[d]);
+    const int side = d < c ? -of(a, b, d).side(c) : orient3d(origin, points_[b], points_[c], points_[d]);
     if (side > 0) sides.above |= corner_bit(d);
     if (side < 0) sides.below |= corner_bit(d);
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/box_tree.h"
+#include "engine/geometry/box_tree.h"
 
 namespace ccdt::testing {
 namespace {

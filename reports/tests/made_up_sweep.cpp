@@ -7,8 +7,8 @@
 #include <random>
 #include <utility>
 
-#include "bench/json.h"
-#include "bench/run_record.h"
+#include "bench/run/json.h"
+#include "bench/run/run_record.h"
 #include "engine/io/files.h"
 
 namespace ccdt {
@@ -75,7 +75,9 @@ Json description(const MadeUpSweep& sweep, const std::vector<MadeUpCase>& cases)
   Json json = {{"schema", "ccdt.sweep/1"},
                {"name", "made-up"},
                {"seed", 1},
+               {"verify", true},
                {"limits", {{"seconds", 60}, {"bytes", 4000000000}}},
+               {"keep_meshes", false},
                {"identity", {{"machine.cpu", "made up"}}},
                {"mixed_with", Json::array()},
                {"cases", Json::array()}};

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "bench/run_record.h"
+#include "bench/run/run_record.h"
 #include "engine/base/errors.h"
 
 namespace ccdt {

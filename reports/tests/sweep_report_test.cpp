@@ -8,8 +8,8 @@
 #include <set>
 #include <sstream>
 
-#include "bench/json.h"
-#include "bench/sweep_results/sweep_result.h"
+#include "bench/results/sweep_result.h"
+#include "bench/run/json.h"
 #include "engine/io/files.h"
 #include "reports/report.h"
 #include "reports/tests/made_up_sweep.h"
@@ -195,7 +195,7 @@ TEST_F(SweepReport, WritesALineForEachRun) {
 }
 
 TEST_F(SweepReport, NamesItsColumnsInTheHelp) {
-  const std::string help = sweep_results::run_columns_help();
+  const std::string help = results::run_columns_help();
   const std::string names = lines_of(report().more_files.at("runs.csv"))[0];
   std::istringstream words(help);
   for (std::string word; words >> word;)

@@ -2,7 +2,7 @@
 
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/shared/mesh_test_solids.h"
 #include "tools/tests/program.h"
 
 // Improvement through the options of the program.

@@ -2,7 +2,7 @@
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
-#include "bench/run_record.h"
+#include "bench/run/run_record.h"
 #include "tools/tests/program.h"
 
 namespace ccdt {

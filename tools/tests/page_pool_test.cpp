@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/tests/little_memory.h"
-#include "engine/tests/sanitized.h"
+#include "engine/tests/shared/little_memory.h"
+#include "engine/tests/shared/sanitized.h"
 
 namespace ccdt {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "bench/run_record.h"
+#include "bench/run/run_record.h"
 #include "engine/base/work.h"
 
 // What the published schemas allow, and that they name all that the program can write.

@@ -4,7 +4,7 @@
 
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/shared/mesh_test_solids.h"
 #include "tools/tests/program.h"
 
 // Size functions from files, through the program alone.

@@ -13,7 +13,7 @@
 #include <random>
 #include <thread>
 
-#include "engine/tests/real_parts.h"
+#include "engine/tests/shared/real_parts.h"
 #include "tools/tests/program.h"
 
 /// Sweeps that are killed, and meshers that misbehave. With arguments, the program does more than a quick test:

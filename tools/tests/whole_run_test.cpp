@@ -6,7 +6,7 @@
 
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/shared/mesh_test_solids.h"
 #include "tools/tests/program.h"
 
 // From a file to a verified mesh, and from a bad file to one message, only through the program.

@@ -20,7 +20,7 @@ function limitsText(limits) {
   return parts.length > 0 ? `limits of a run: ${parts.join(", ")}` : "";
 }
 
-const FEWEST_FOR_INTERVAL = 6; // as in bench/median_interval.h
+const FEWEST_FOR_INTERVAL = 6; // as in bench/run/median_interval.h
 
 /** How it was measured, in a line. */
 function circumstances(section) {

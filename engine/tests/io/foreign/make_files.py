@@ -1,0 +1,76 @@
+#!/usr/bin/python3
+"""Makes the files of this folder by programs that are not ccdt.
+
+    engine/tests/io/foreign/make_files.py     with Debian's gmsh, python3-meshio and python3-vtk9
+
+All of them have the same mesh: two tetrahedra of the regions 7 and -8, two faces with the markers 5 and 6, and an edge
+with the marker 3; those of Gmsh have what Gmsh makes of corner.geo.
+"""
+import os
+import subprocess
+
+import meshio
+import numpy
+import vtk
+
+os.chdir(os.path.dirname(os.path.abspath(__file__)))
+
+points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1 / 3, 1.1, 1.2]]
+cells = [("tetra", [[0, 1, 2, 3], [1, 2, 3, 4]]), ("triangle", [[0, 2, 1], [1, 2, 4]]), ("line", [[0, 1]])]
+attributes = [[7, -8], [5, 6], [3]]
+
+
+def write_medit():
+    blocks = [(kind, numpy.array(corners)) for kind, corners in cells]
+    references = {"medit:ref": [numpy.array(values) for values in attributes]}
+    meshio.write("meshio.meshb", meshio.Mesh(numpy.array(points, dtype=float), blocks, cell_data=references))
+
+
+def write_vtk():
+    grid = vtk.vtkUnstructuredGrid()
+    vertices = vtk.vtkPoints()
+    vertices.SetDataTypeToDouble()
+    for point in points:
+        vertices.InsertNextPoint(point)
+    grid.SetPoints(vertices)
+    types = {"tetra": vtk.VTK_TETRA, "triangle": vtk.VTK_TRIANGLE, "line": vtk.VTK_LINE}
+    region, marker = vtk.vtkIntArray(), vtk.vtkIntArray()
+    region.SetName("region")
+    marker.SetName("marker")
+    for (kind, members), values in zip(cells, attributes):
+        for corners, value in zip(members, values):
+            grid.InsertNextCell(types[kind], len(corners), corners)
+            region.InsertNextValue(value if kind == "tetra" else 0)
+            marker.InsertNextValue(0 if kind == "tetra" else value)
+    grid.GetCellData().AddArray(region)
+    grid.GetCellData().AddArray(marker)
+    for kind in ["ascii", "inline", "inline-zlib", "inline-zlib-big-64", "raw-zlib", "raw-big-64", "base64-zlib-64",
+                 "base64-big"]:
+        parts = kind.split("-")
+        mode, compressed, big, wide = parts[0], "zlib" in parts, "big" in parts, "64" in parts
+        writer = vtk.vtkXMLUnstructuredGridWriter()
+        writer.SetFileName(f"vtk-{kind}.vtu")
+        writer.SetInputData(grid)
+        writer.SetDataMode({"ascii": writer.Ascii, "inline": writer.Binary}.get(mode, writer.Appended))
+        writer.SetEncodeAppendedData(mode == "base64")
+        if compressed:
+            writer.SetCompressorTypeToZLib()
+            writer.SetBlockSize(32)  # bytes: several blocks an array, the last one not whole
+        else:
+            writer.SetCompressorTypeToNone()
+        writer.SetByteOrderToBigEndian() if big else writer.SetByteOrderToLittleEndian()
+        writer.SetHeaderTypeToUInt64() if wide else writer.SetHeaderTypeToUInt32()
+        assert writer.Write()
+
+
+def write_gmsh():
+    for version in ["msh22", "msh41"]:
+        for binary in [False, True]:
+            name = f"gmsh-{version}-{'binary' if binary else 'text'}.msh"
+            command = ["gmsh", "-3", "corner.geo", "-format", version, "-o", name] + ["-bin"] * binary
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+
+
+write_medit()
+write_vtk()
+write_gmsh()

@@ -1,0 +1,66 @@
+#include "engine/tests/io/io_test_files.h"
+
+namespace ccdt {
+namespace {
+
+using namespace io_test;
+
+// foreign/make_files.py says how these files were made.
+const std::filesystem::path foreign = std::filesystem::path(CCDT_SOURCE_DIR) / "engine/tests/io/foreign";
+
+mesh::TetMesh mesh_of_two_tetrahedra() {
+  mesh::TetMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1.0 / 3, 1.1, 1.2}};
+  mesh.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
+  mesh.regions = {7, -8};
+  mesh.faces = {{0, 2, 1}, {1, 2, 4}};
+  mesh.face_markers = {5, 6};
+  mesh.edges = {{0, 1}};
+  mesh.edge_markers = {3};
+  return mesh;
+}
+
+TEST(ForeignFiles, OfVtkInAllEncodings) {
+  for (const char* kind :
+       {"inline", "inline-zlib", "inline-zlib-big-64", "raw-zlib", "raw-big-64", "base64-zlib-64", "base64-big"}) {
+    SCOPED_TRACE(kind);
+    expect_same_mesh(io::read_tet_mesh(foreign / ("vtk-" + std::string(kind) + ".vtu")), mesh_of_two_tetrahedra());
+  }
+  mesh::TetMesh text = io::read_tet_mesh(foreign / "vtk-ascii.vtu");
+  EXPECT_NEAR(text.vertices[4].x, 1.0 / 3, 1e-9) << "VTK writes fewer digits in text";
+  text.vertices = mesh_of_two_tetrahedra().vertices;
+  expect_same_mesh(text, mesh_of_two_tetrahedra());
+}
+
+TEST(ForeignFiles, OfMeshioInMeditBinary) {
+  expect_same_mesh(io::read_tet_mesh(foreign / "meshio.meshb"), mesh_of_two_tetrahedra());
+  const plc::InputPlc plc = io::read_plc(foreign / "meshio.meshb");
+  EXPECT_EQ(plc.triangles, mesh_of_two_tetrahedra().faces);
+  EXPECT_EQ(plc.triangle_markers, mesh_of_two_tetrahedra().face_markers);
+  EXPECT_EQ(plc.segments, mesh_of_two_tetrahedra().edges);
+}
+
+TEST(ForeignFiles, OfGmshInTextAndBinary) {
+  const mesh::TetMesh first = io::read_tet_mesh(foreign / "gmsh-msh41-binary.msh");
+  EXPECT_GT(first.tetrahedra.size(), 0u);
+  EXPECT_EQ(first.regions, std::vector<int>(first.tetrahedra.size(), 7));
+  EXPECT_EQ(first.edge_markers, std::vector<int>(first.edges.size(), 3));
+  EXPECT_EQ(first.face_markers.front(), 5);
+  EXPECT_EQ(first.face_markers.back(), 6);
+  for (const char* name : {"gmsh-msh41-text.msh", "gmsh-msh22-binary.msh", "gmsh-msh22-text.msh"}) {
+    SCOPED_TRACE(name);
+    const mesh::TetMesh mesh = io::read_tet_mesh(foreign / name);
+    EXPECT_EQ(mesh.tetrahedra, first.tetrahedra);
+    EXPECT_EQ(mesh.regions, first.regions);
+    EXPECT_EQ(mesh.faces, first.faces);
+    EXPECT_EQ(mesh.face_markers, first.face_markers);
+    EXPECT_EQ(mesh.edges, first.edges);
+    EXPECT_EQ(mesh.edge_markers, first.edge_markers);
+    ASSERT_EQ(mesh.vertices.size(), first.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+      EXPECT_LT(length(mesh.vertices[i] - first.vertices[i]), 1e-12) << "Gmsh rounds in text";
+  }
+}
+
+}  // namespace
+}  // namespace ccdt
