@@ -172,18 +172,13 @@ std::vector<std::uint32_t> find_faces_again(const plc::Plc& plc, const facets::F
   return front::find_delaunay_faces_again(facets.triangles, earlier, delaunay);
 }
 
-/// Makes the faces of the facets part of the tetrahedralization of all vertices, and a mesh of the space that they
-/// enclose.
-///
-/// \param delaunay  loses its cells and vertices
-void constrain(delaunay::Delaunay& delaunay, facets::FacetMesh& facets, Run& run, Tetrahedralization& t) {
-  std::vector<std::uint32_t> codes =
-      run.measured(Stage::face_check, [&] { return find_faces_again(t.plc, facets, delaunay); });
-  t.counts.faces = facets.triangles.size();
-  // Only for the report, so it is not the work of a stage.
-  t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, delaunay);
-  t.counts.undelaunay_faces = static_cast<std::size_t>(std::ranges::count(codes, delaunay::no_neighbor));
-  fill_domain(delaunay, facets, std::move(codes), run, t);
+/// The faces of the facets in the tetrahedralization, after bent facets have taken those that it has there.
+std::vector<std::uint32_t> find_faces(const Tetrahedralization& t, const delaunay::Delaunay& delaunay,
+                                      facets::FacetMesh& facets) {
+  std::vector<std::uint32_t> codes = find_faces_again(t.plc, facets, delaunay);
+  if (t.counts.interior_vertices > 0 && facets::follow_interior_vertices(t.plc, t.chains, delaunay, codes, facets))
+    codes = find_faces_again(t.plc, facets, delaunay);
+  return codes;
 }
 
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
@@ -242,28 +237,17 @@ std::vector<Point3> refine_surface(Run& run, Tetrahedralization& t) {
   return points;
 }
 
-/// All stages but improvement.
-Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
-  Tetrahedralization t;
-  CheckedInput checked = check_input(input, run);
-  t.plc = std::move(checked.plc);
-  std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
-  if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(run, t), run);
-  if (!delaunay) delaunay::refuse_flat_points();
-  folds::ProtectedSurface folded = run.measured(Stage::protect, [&] {
-    return folds::protect_facets(t.plc, *std::move(delaunay), std::move(t.chains),
-                                 plc::tolerance_of(t.plc, run.options.flatness), run.options.protection, run.progress);
-  });
-  protection::ProtectedDelaunay& surface = folded.delaunay;
-  const auto count_steiner_vertices = [&] {
-    t.first_interior = surface.delaunay.vertices.size();
-    t.counts.steiner_vertices = t.first_interior - t.plc.vertices.size() - t.counts.refined_on_segments;
-    t.counts.splits_by_level = protection::count_splits_by_level(surface.chains);
-  };
-  count_steiner_vertices();
-
+/// Protects the surface and fills the space around it with points.
+///
+/// \param all  gets the Delaunay tetrahedralization of all vertices
+/// \return     the faces of the surface
+facets::FacetMesh add_interior_points(folds::SurfaceProtector& protector, Run& run, Tetrahedralization& t,
+                                      delaunay::Delaunay& all) {
+  protection::ProtectedDelaunay surface = run.measured(Stage::protect, [&] { return protector.protect(run.progress); });
+  const std::size_t refined = t.plc.vertices.size() + t.counts.refined_on_segments;
   facets::FacetMesh facets;
   const auto triangulate_facets = [&] {
+    t.first_interior = surface.delaunay.vertices.size();
     facets = run.measured(Stage::facets, [&] {
       return facets::triangulate_facets(t.plc, surface.chains, surface.delaunay, run.progress);
     });
@@ -276,25 +260,44 @@ Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
       t.counts.dropped_interior_vertices = lattice.points.size();
       const auto avoided =
           run.options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
-      const auto folds = [&](const auto& its) { return folds::folds_after_splits(t.plc, its, folded); };
-      keep_only(
-          protection::make_room(lattice.points, t.plc, run.options.protection, surface, avoided, folds, run.progress),
-          lattice);
+      keep_only(protection::make_room(lattice.points, t.plc, run.options.protection, surface, avoided, run.progress),
+                lattice);
       t.counts.dropped_interior_vertices -= lattice.points.size();
     });
   }
-  if (t.first_interior < surface.delaunay.vertices.size()) {
-    count_steiner_vertices();
-    triangulate_facets();
-  }
+  if (t.first_interior < surface.delaunay.vertices.size()) triangulate_facets();
+  t.counts.steiner_vertices = t.first_interior - refined;
+  t.counts.splits_by_level = protection::count_splits_by_level(surface.chains);
   t.chains = std::move(surface.chains);
-  delaunay::Delaunay all = run.measured(Stage::delaunay, [&] {
+  all = run.measured(Stage::delaunay, [&] {
     return add_points(std::move(lattice), std::move(surface.delaunay), run.options, run.progress, t.counts);
   });
   t.counts.interior_vertices = all.vertices.size() - t.first_interior;
+  return facets;
+}
 
-  constrain(all, facets, run, t);
-  return t;
+/// All stages but improvement.
+Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
+  Tetrahedralization t;
+  CheckedInput checked = check_input(input, run);
+  t.plc = std::move(checked.plc);
+  std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
+  if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(run, t), run);
+  if (!delaunay) delaunay::refuse_flat_points();
+  folds::SurfaceProtector protector(t.plc, *std::move(delaunay), std::move(t.chains),
+                                    plc::tolerance_of(t.plc, run.options.flatness), run.options.protection);
+  for (;;) {
+    delaunay::Delaunay all;
+    facets::FacetMesh facets = add_interior_points(protector, run, t, all);
+    std::vector<std::uint32_t> codes = run.measured(Stage::face_check, [&] { return find_faces(t, all, facets); });
+    if (!run.measured(Stage::face_check, [&] { return protector.holds(all, t.chains, facets, codes); })) continue;
+    t.counts.faces = facets.triangles.size();
+    // Only for the report, so it is not the work of a stage.
+    t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, all);
+    t.counts.undelaunay_faces = static_cast<std::size_t>(std::ranges::count(codes, delaunay::no_neighbor));
+    fill_domain(all, facets, std::move(codes), run, t);
+    return t;
+  }
 }
 
 /// The target edge length, with the default of a refined surface. A length beyond the size of the input would only make

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -143,6 +145,19 @@ class FacetMesher {
     if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
     result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
     result.facet.resize(result.triangles.size(), id);
+  }
+
+  /// Are these triangles of a facet Delaunay faces without a flat cell on the side of the domain?
+  bool face_domain(const plc::Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes) {
+    if (std::ranges::find(codes, delaunay::no_neighbor) != codes.end()) return false;
+    enter(facet, triangles);
+    std::optional<FacetPlane> plane;  // rarely needed
+    return std::ranges::none_of(codes, [&](std::uint32_t code) {
+      const std::uint32_t cell = cell_on_domain_side(code);
+      if (!has_all_vertices_here(cell)) return false;
+      if (!plane) plane.emplace(flatten(plc_.triangles_of(facet), segments_of(plc_.triangles_of(facet))));
+      return is_flat_cell(cell, *plane);
+    });
   }
 
  private:
@@ -350,6 +365,21 @@ void in_chunks(const FacetMesher& first, std::size_t count, const Work& work) {
   });
 }
 
+/// The faces of each facet follow one another.
+struct FacetFaces {
+  FacetId facet;
+  std::size_t begin, end;
+};
+
+std::vector<FacetFaces> faces_by_facet(const FacetMesh& facets) {
+  std::vector<FacetFaces> result;
+  for (std::size_t i = 0; i < facets.facet.size(); ++i) {
+    if (result.empty() || result.back().facet != facets.facet[i]) result.push_back({facets.facet[i], i, i});
+    ++result.back().end;
+  }
+  return result;
+}
+
 }  // namespace
 
 FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
@@ -368,6 +398,37 @@ FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChain
   }
   note_bytes(bytes_of(result.triangles, result.facet));
   return result;
+}
+
+bool follow_interior_vertices(const plc::Plc& plc, const protection::SegmentChains& chains,
+                              const delaunay::Delaunay& delaunay, const std::vector<std::uint32_t>& codes,
+                              FacetMesh& facets) {
+  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return false;
+  FacetMesher first(plc, chains, delaunay);
+  const std::vector<FacetFaces> by_facet = faces_by_facet(facets);
+  std::vector<std::uint8_t> stays(by_facet.size());
+  in_chunks(first, by_facet.size(), [&](FacetMesher& mesher, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [id, from, to] = by_facet[i];
+      const plc::Facet& facet = plc.facets[id];
+      stays[i] = facet.exactly_flat || mesher.face_domain(facet, std::span(facets.triangles).subspan(from, to - from),
+                                                          std::span(codes).subspan(from, to - from));
+    }
+    return true;
+  });
+  if (std::ranges::all_of(stays, std::identity{})) return false;
+  const FacetMesh old = std::move(facets);
+  facets = {};
+  for (std::size_t i = 0; i < by_facet.size(); ++i) {
+    const auto& [id, from, to] = by_facet[i];
+    if (stays[i] == 0) {
+      first.triangulate(id, facets);
+      continue;
+    }
+    facets.triangles.insert(facets.triangles.end(), old.triangles.begin() + from, old.triangles.begin() + to);
+    facets.facet.resize(facets.triangles.size(), id);
+  }
+  return true;
 }
 
 }  // namespace ccdt::facets

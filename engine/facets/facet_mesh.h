@@ -27,4 +27,14 @@ struct FacetMesh {
 FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
                              const delaunay::Delaunay& delaunay, const Progress& progress = {});
 
+/// Updates the triangulation after interior vertices were added to the tetrahedralization. An exactly flat facet stays
+/// as it is: its triangulation depends only on its own vertices. A facet that is flat only within the tolerance is
+/// triangulated again, unless all its triangles are Delaunay and face the domain.
+///
+/// \param codes  for every triangle its code in the cell above it, `no_neighbor` if it is not a Delaunay face
+/// \return       has any triangle changed?
+bool follow_interior_vertices(const plc::Plc& plc, const protection::SegmentChains& chains,
+                              const delaunay::Delaunay& delaunay, const std::vector<std::uint32_t>& codes,
+                              FacetMesh& facets);
+
 }  // namespace ccdt::facets

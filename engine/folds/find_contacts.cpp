@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/front/find_delaunay_faces.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/contacts.h"
 
@@ -22,12 +21,12 @@ bool meet(Triangle s, Triangle t, const delaunay::Delaunay& d) {
 }  // namespace
 
 std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const delaunay::Delaunay& d,
+                                         std::span<const std::uint32_t> codes,
                                          const std::vector<FacetOrigin>& origins) {
   const auto box_of_face = [&](std::uint32_t face) {
     const auto& [a, b, c] = facets.triangles[face];
     return bounding_box(std::array{d.point(a), d.point(b), d.point(c)});
   };
-  const std::vector<std::uint32_t> codes = front::find_delaunay_faces(facets.triangles, d);
   std::vector<std::uint32_t> missing;
   RawVector<Box> boxes;
   for (std::uint32_t i = 0; i < codes.size(); ++i) {
@@ -35,6 +34,7 @@ std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const 
     missing.push_back(i);
     boxes.push_back(box_of_face(i));
   }
+  if (missing.empty()) return {};
   const BoxTree tree(std::move(boxes));
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < facets.triangles.size(); ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/delaunay/delaunay.h"
@@ -19,8 +19,9 @@ struct FacetOrigin {
 /// and edges. Since Delaunay faces never do, one of the two is missing in the tetrahedralization; since facets of the
 /// input never do, one of the two is moved.
 ///
+/// \param codes    of the faces, see `front::find_delaunay_faces`
 /// \param origins  of the facets
 std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const delaunay::Delaunay& delaunay,
-                                         const std::vector<FacetOrigin>& origins);
+                                         std::span<const std::uint32_t> codes, const std::vector<FacetOrigin>& origins);
 
 }  // namespace ccdt::folds

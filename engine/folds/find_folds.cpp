@@ -32,16 +32,17 @@ bool is_illegal(const delaunay::Delaunay& d, const Triangle& t, VertexId apex) {
 /// Looks at the faces around each edge.
 class FoldFinder {
  public:
-  FoldFinder(const plc::Plc& plc, const protection::ProtectedDelaunay& surface, const facets::FacetMesh& facets)
-      : plc_(plc), surface_(surface), facets_(facets) {
-    for (std::uint32_t s = 0; s < surface.chains.size(); ++s) {
-      const auto chain = surface.chains[s];
+  FoldFinder(const plc::Plc& plc, const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
+             const facets::FacetMesh& facets, std::span<const std::uint32_t> codes)
+      : plc_(plc), d_(delaunay), facets_(facets), codes_(codes) {
+    for (std::uint32_t s = 0; s < chains.size(); ++s) {
+      const auto chain = chains[s];
       for (std::size_t i = 0; i + 1 < chain.size(); ++i)
         segment_of_.insert(edge_key(chain[i].vertex, chain[i + 1].vertex), s);
     }
   }
 
-  Folds find() {
+  LooseFolds find() {
     std::vector<AtEdge> sides;
     sides.reserve(3 * facets_.triangles.size());
     for (std::uint32_t i = 0; i < facets_.triangles.size(); ++i)
@@ -50,12 +51,12 @@ class FoldFinder {
     for_each_edge_group(sides, [&](std::span<const AtEdge> around) {
       if (around.size() > 1) look_at(around);
     });
-    for (auto* list : {&folds_.loose_faces, &folds_.loose_segments}) {
+    for (auto* list : {&loose_.faces, &loose_.segments}) {
       std::ranges::sort(*list);
       const auto repeated = std::ranges::unique(*list);
       list->erase(repeated.begin(), repeated.end());
     }
-    return std::move(folds_);
+    return std::move(loose_);
   }
 
  private:
@@ -66,15 +67,27 @@ class FoldFinder {
     const std::uint32_t* const segment = segment_of_.find(edge);
     if (std::ranges::all_of(around, [&](const AtEdge& side) { return facet_of(side).exactly_flat; })) return;
     if (segment == nullptr) {
-      if (is_grazeable(around, false)) note(edge, nullptr, around);
+      if (!is_delaunay(around) && is_grazeable(around, false)) add_faces(around);
       return;
     }
     for (std::size_t i = 1; i < around.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (facets_.facet[around[i].value] == facets_.facet[around[j].value] &&
             !has_segment(facet_of(around[i]), *segment))
-          folds_.loose_faces.insert(folds_.loose_faces.end(), {around[i].value, around[j].value});
-    if (!surface_.must_be_chain[*segment] && is_grazeable(around, true)) note(edge, segment, around);
+          add_faces(std::array{around[i], around[j]});
+    if (!plc_.segments[*segment].grazeable && !is_delaunay(around) && is_grazeable(around, true))
+      loose_.segments.push_back(*segment);
+  }
+
+  void add_faces(std::span<const AtEdge> around) {
+    for (const AtEdge& side : around) loose_.faces.push_back(side.value);
+  }
+
+  bool is_delaunay(std::span<const AtEdge> around) const {
+    const auto is_face = [&](const AtEdge& side) { return codes_[side.value] != delaunay::no_neighbor; };
+    const std::uint64_t edge = around[0].edge;
+    return std::ranges::any_of(around, is_face) ||
+           delaunay::has_edge(d_, static_cast<std::uint32_t>(edge >> 32), static_cast<std::uint32_t>(edge));
   }
 
   /// Is the segment one of this facet?
@@ -89,14 +102,13 @@ class FoldFinder {
   int turn(const AtEdge& side, const AtEdge& other) const {
     const Triangle& t = facets_.triangles[side.value];
     const VertexId apex = corner_beside(facets_.triangles[other.value], side.edge);
-    const delaunay::Delaunay& d = surface_.delaunay;
-    return orient3d(d.point(t[0]), d.point(t[1]), d.point(t[2]), d.point(apex));
+    return orient3d(d_.point(t[0]), d_.point(t[1]), d_.point(t[2]), d_.point(apex));
   }
 
   /// Is a sector of the domain of 180 degrees or more around the edge? The next face is then not on that side.
   bool is_grazeable(std::span<const AtEdge> around, bool is_segment) const {
     if (around.size() == 2 && !is_segment && turn(around[0], around[1]) == 0)
-      return is_illegal(surface_.delaunay, facets_.triangles[around[0].value],
+      return is_illegal(d_, facets_.triangles[around[0].value],
                         corner_beside(facets_.triangles[around[1].value], around[0].edge));
     return std::ranges::any_of(around, [&](const AtEdge& side) {
       bool above = plc_.regions[facet_of(side).above].inside, below = plc_.regions[facet_of(side).below].inside;
@@ -109,27 +121,20 @@ class FoldFinder {
     });
   }
 
-  void note(std::uint64_t edge, const std::uint32_t* segment, std::span<const AtEdge> around) {
-    const protection::PieceEnds ends = {static_cast<std::uint32_t>(edge >> 32), static_cast<std::uint32_t>(edge)};
-    if (delaunay::has_edge(surface_.delaunay, ends[0], ends[1]))
-      folds_.edges.push_back(ends);
-    else if (segment != nullptr)
-      folds_.loose_segments.push_back(*segment);
-    else
-      for (const AtEdge& side : around) folds_.loose_faces.push_back(side.value);
-  }
-
   const plc::Plc& plc_;
-  const protection::ProtectedDelaunay& surface_;
+  const delaunay::Delaunay& d_;
   const facets::FacetMesh& facets_;
+  const std::span<const std::uint32_t> codes_;
   HashTable<std::uint64_t, std::uint32_t> segment_of_;  // by edge
-  Folds folds_;
+  LooseFolds loose_;
 };
 
 }  // namespace
 
-Folds find_folds(const plc::Plc& plc, const protection::ProtectedDelaunay& surface, const facets::FacetMesh& facets) {
-  return FoldFinder(plc, surface, facets).find();
+LooseFolds find_loose_folds(const plc::Plc& plc, const delaunay::Delaunay& delaunay,
+                            const protection::SegmentChains& chains, const facets::FacetMesh& facets,
+                            std::span<const std::uint32_t> codes) {
+  return FoldFinder(plc, delaunay, chains, facets, codes).find();
 }
 
 bool is_grazeable_fold(const plc::Plc& plc, const plc::Facet& facet, int turn) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/facets/facet_mesh.h"
@@ -9,19 +10,22 @@
 
 namespace ccdt::folds {
 
-/// The edges of faces that protection does not know of. A *fold* is an edge within a bent facet at which two faces are
-/// not coplanar. Like a segment, it is grazeable if a sector of the domain of 180 degrees or more is around it.
-struct Folds {
-  std::vector<protection::PieceEnds> edges;   ///< the Delaunay edges among the grazeable folds and `loose_segments`
-  std::vector<std::uint32_t> loose_segments;  ///< grazeable with these faces, not Delaunay, and not protected
-  /// The faces at grazeable folds that are not Delaunay, and at folds along a segment of another facet; ascending.
-  std::vector<std::uint32_t> loose_faces;
+/// Grazeable edges of the faces that are not Delaunay. Protection does not know of them: a *fold* is an edge within a
+/// bent facet at which two faces are not coplanar. Like a segment, it is grazeable if a sector of the domain of 180
+/// degrees or more is around it.
+struct LooseFolds {
+  std::vector<std::uint32_t> segments;  ///< grazeable with these faces, and not protected
+  std::vector<std::uint32_t> faces;     ///< at folds, also at those along a segment of another facet; ascending
 
-  bool are_protected() const { return loose_segments.empty() && loose_faces.empty(); }
+  bool empty() const { return segments.empty() && faces.empty(); }
 };
 
-/// \param facets  the triangulation of the facets with all vertices of the surface
-Folds find_folds(const plc::Plc& plc, const protection::ProtectedDelaunay& surface, const facets::FacetMesh& facets);
+/// \param delaunay  has all vertices of the facets
+/// \param facets    their triangulation
+/// \param codes     of its triangles, see `front::find_delaunay_faces`
+LooseFolds find_loose_folds(const plc::Plc& plc, const delaunay::Delaunay& delaunay,
+                            const protection::SegmentChains& chains, const facets::FacetMesh& facets,
+                            std::span<const std::uint32_t> codes);
 
 /// Is an edge between two faces of a facet grazeable?
 ///

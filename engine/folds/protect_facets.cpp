@@ -3,60 +3,62 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/folds/divide_facets.h"
+#include "engine/folds/find_contacts.h"
 #include "engine/folds/find_folds.h"
+#include "engine/front/find_delaunay_faces.h"
 
 namespace ccdt::folds {
-namespace {
 
 using protection::ProtectedDelaunay;
 
-/// Protects the segments of the PLC, in which divisions that do not allow that are given up.
-ProtectedDelaunay protect_segments(plc::Plc& plc, FacetDivider& divider, const delaunay::Delaunay& delaunay,
-                                   const protection::SegmentChains& chains, protection::Protection strategy,
-                                   const Progress& progress) {
+SurfaceProtector::SurfaceProtector(plc::Plc& plc, delaunay::Delaunay delaunay, protection::SegmentChains chains,
+                                   double tolerance, protection::Protection strategy)
+    : plc_(plc), delaunay_(std::move(delaunay)), chains_(std::move(chains)), strategy_(strategy) {
+  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return;
+  undivided_ = plc;
+  divider_.emplace(undivided_, delaunay_, tolerance);
+}
+
+/// Gives up divisions that do not allow to protect the segments.
+ProtectedDelaunay SurfaceProtector::protect_segments(const Progress& progress) {
   for (;;) {
     try {
-      return protection::protect_edges(plc, protection::unprotected(plc, delaunay, chains), strategy, progress);
+      return protection::protect_edges(plc_, protection::unprotected(plc_, delaunay_, chains_), strategy_, progress);
     } catch (const protection::SegmentLimit& limit) {
-      if (!divider.give_way(limit.ends)) throw;
-      plc = divider.divided();
+      if (!divider_->give_way(limit.ends)) throw;
+      plc_ = divider_->divided();
     }
   }
 }
 
-}  // namespace
-
-ProtectedSurface protect_facets(plc::Plc& plc, delaunay::Delaunay delaunay, protection::SegmentChains chains,
-                                double tolerance, protection::Protection strategy, const Progress& progress) {
-  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) {
-    ProtectedDelaunay start = protection::unprotected(plc, std::move(delaunay), std::move(chains));
-    return {protection::protect_edges(plc, std::move(start), strategy, progress), {}, {}};
+ProtectedDelaunay SurfaceProtector::protect(const Progress& progress) {
+  if (!divider_) {
+    ProtectedDelaunay start = protection::unprotected(plc_, std::move(delaunay_), std::move(chains_));
+    return protection::protect_edges(plc_, std::move(start), strategy_, progress);
   }
-  const plc::Plc undivided = plc;
-  FacetDivider divider(undivided, delaunay, tolerance);
-  for (;; plc = divider.divided()) {
-    ProtectedDelaunay surface = protect_segments(plc, divider, delaunay, chains, strategy, progress);
-    const facets::FacetMesh faces = facets::triangulate_facets(plc, surface.chains, surface.delaunay, progress);
-    std::vector<FacetOrigin> origins = divider.origins();
-    Folds folds = find_folds(plc, surface, faces);
-    divider.make_grazeable(plc, folds.loose_segments);
-    divider.divide(faces, folds.loose_faces, origins, surface.delaunay);
-    if (!folds.are_protected()) continue;
-    const std::vector<std::uint32_t> contacts = find_contacts(faces, surface.delaunay, origins);
-    if (contacts.empty()) return {std::move(surface), std::move(folds.edges), std::move(origins)};
-    divider.follow_input(faces, contacts, origins);
+  for (;;) {
+    ProtectedDelaunay surface = protect_segments(progress);
+    const facets::FacetMesh faces = facets::triangulate_facets(plc_, surface.chains, surface.delaunay, progress);
+    const auto codes = front::find_delaunay_faces(faces.triangles, surface.delaunay);
+    if (holds(surface.delaunay, surface.chains, faces, codes)) return surface;
   }
 }
 
-std::optional<std::vector<protection::PieceEnds>> folds_after_splits(const plc::Plc& plc,
-                                                                     const ProtectedDelaunay& surface,
-                                                                     const ProtectedSurface& before) {
-  if (before.origins.empty()) return before.folds;
-  const facets::FacetMesh faces = facets::triangulate_facets(plc, surface.chains, surface.delaunay);
-  Folds folds = find_folds(plc, surface, faces);
-  if (!folds.are_protected() || !find_contacts(faces, surface.delaunay, before.origins).empty()) return std::nullopt;
-  return std::move(folds.edges);
+bool SurfaceProtector::holds(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
+                             const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) {
+  if (!divider_) return true;
+  const std::vector<FacetOrigin> origins = divider_->origins();
+  const LooseFolds loose = find_loose_folds(plc_, delaunay, chains, faces, codes);
+  divider_->make_grazeable(plc_, loose.segments);
+  divider_->divide(faces, loose.faces, origins, delaunay);
+  bool holds = loose.empty();
+  if (holds) {
+    const std::vector<std::uint32_t> contacts = find_contacts(faces, delaunay, codes, origins);
+    divider_->follow_input(faces, contacts, origins);
+    holds = contacts.empty();
+  }
+  if (!holds) plc_ = divider_->divided();
+  return holds;
 }
 
 }  // namespace ccdt::folds

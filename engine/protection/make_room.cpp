@@ -32,8 +32,7 @@ struct ProtectedEdge {
   std::uint32_t face;  ///< of the tetrahedralization, at the edge; `plc::no_face`: none is known
 };
 
-std::vector<ProtectedEdge> protected_edges(const plc::Plc& plc, const ProtectedDelaunay& p,
-                                           std::span<const PieceEnds> others) {
+std::vector<ProtectedEdge> protected_edges(const plc::Plc& plc, const ProtectedDelaunay& p) {
   // With more vertices, the faces may be others.
   const bool has_faces = p.delaunay.vertices.size() == plc.vertices.size();
   std::vector<ProtectedEdge> edges;
@@ -41,7 +40,6 @@ std::vector<ProtectedEdge> protected_edges(const plc::Plc& plc, const ProtectedD
     for (std::size_t i = 0; p.must_be_chain[s] && i + 1 < p.chains[s].size(); ++i)
       edges.push_back(
           {{p.chains[s][i].vertex, p.chains[s][i + 1].vertex}, has_faces ? plc.segments[s].face : plc::no_face});
-  for (const PieceEnds& ends : others) edges.push_back({ends, plc::no_face});
   return edges;
 }
 
@@ -185,8 +183,8 @@ struct Harm {
   std::vector<std::uint32_t> edge_count;           ///< by point: the edges that it may harm
 
   Harm(std::span<const Point3> all, const BoxTree& tree, const plc::Plc& plc, const ProtectedDelaunay& surface,
-       std::span<const PieceEnds> others, Avoided avoided)
-      : edges(protected_edges(plc, surface, others)),
+       Avoided avoided)
+      : edges(protected_edges(plc, surface)),
         points(find_harmful(all, tree, edges, surface.delaunay, avoided)),
         edge_count(all.size()) {
     for (const auto& harmful : points)
@@ -236,21 +234,16 @@ std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges,
 }  // namespace
 
 std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
-                                     ProtectedDelaunay& surface, Avoided avoided, const OtherEdges& others,
-                                     const Progress& progress) {
-  const auto other_edges = [&](const ProtectedDelaunay& its) {
-    return others ? others(its) : std::optional(std::vector<PieceEnds>());
-  };
+                                     ProtectedDelaunay& surface, Avoided avoided, const Progress& progress) {
   const BoxTree tree(boxes_of(points));
   const std::size_t first_in_the_way = avoided == Avoided::nothing ? 0 : surface.delaunay.vertices.size();
-  Harm harm(points, tree, plc, surface, other_edges(surface).value(), avoided);
+  Harm harm(points, tree, plc, surface, avoided);
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<PieceEnds> costly = harm.costly_edges();
     if (costly.empty()) break;
     std::optional<ProtectedDelaunay> split = with_split(costly, plc, strategy, surface, progress);
-    const auto its_others = split ? other_edges(*split) : std::nullopt;
-    if (!its_others) break;
-    Harm less(points, tree, plc, *split, *its_others, Avoided::nothing);
+    if (!split) break;
+    Harm less(points, tree, plc, *split, Avoided::nothing);
     const std::size_t splits = split->delaunay.vertices.size() - surface.delaunay.vertices.size();
     if (less.harmful_points() + points_per_split * splits > harm.harmful_points()) break;
     surface = std::move(*split);

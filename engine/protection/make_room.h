@@ -1,8 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,9 +13,6 @@ enum class Avoided {
   nothing,
   smallest_spheres  ///< of all edges and triangles of the surface, and with them the vertices
 };
-
-/// The edges that must stay on a surface, beside those of its segments; none if the surface must not be used.
-using OtherEdges = std::function<std::optional<std::vector<PieceEnds>>(const ProtectedDelaunay&)>;
 
 /// Prepares a surface for the insertion of interior points: leaves out those that could destroy a protected edge, and
 /// splits the edges that would cost too many. All protected edges then stay Delaunay, whichever of the remaining points
@@ -33,10 +28,8 @@ using OtherEdges = std::function<std::optional<std::vector<PieceEnds>>(const Pro
 /// \param points   in grid units
 /// \param surface  whose protected edges are all there; gains the vertices of the splits, and stays protected
 /// \param avoided  what the points are known to keep away from
-/// \param others   also for the surface with more splits
 /// \return  the indices of the points that remain, in increasing order; none of them is where a vertex is
 std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
-                                     ProtectedDelaunay& surface, Avoided avoided, const OtherEdges& others = {},
-                                     const Progress& progress = {});
+                                     ProtectedDelaunay& surface, Avoided avoided, const Progress& progress = {});
 
 }  // namespace ccdt::protection

@@ -12,12 +12,13 @@
 #include "engine/folds/divide_facets.h"
 #include "engine/folds/find_contacts.h"
 #include "engine/folds/protect_facets.h"
+#include "engine/front/find_delaunay_faces.h"
+#include "engine/geometry/contacts.h"
 #include "engine/geometry/predicates.h"
 #include "engine/plc/build_plc.h"
-#include "engine/plc/find_overlaps.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/tests/mesh_checks.h"
-#include "engine/tests/mesh_test_solids.h"
+#include "engine/tests/shared/mesh_checks.h"
+#include "engine/tests/shared/mesh_test_solids.h"
 
 // The invariant that keeps the front from getting stuck at facets that are flat only within the tolerance.
 
@@ -71,16 +72,17 @@ InputPlc rounded_to_single(const InputPlc& input) {
 struct Surface {
   Surface(const InputPlc& input, double flatness) : plc(plc::build_plc(input, {.flatness = flatness})) {
     bent = static_cast<std::size_t>(std::ranges::count(plc.facets, false, &plc::Facet::exactly_flat));
-    protection = folds::protect_facets(plc, delaunay::build_delaunay(plc.vertices), {},
-                                       plc::tolerance_of(plc, flatness), protection::Protection::shell);
-    faces = facets::triangulate_facets(plc, protection.delaunay.chains, protection.delaunay.delaunay);
+    folds::SurfaceProtector protector(plc, delaunay::build_delaunay(plc.vertices), {}, plc::tolerance_of(plc, flatness),
+                                      protection::Protection::shell);
+    surface = protector.protect();
+    faces = facets::triangulate_facets(plc, surface.chains, surface.delaunay);
   }
-  const Point3& point(std::uint32_t v) const { return protection.delaunay.delaunay.point(v); }
+  const Point3& point(std::uint32_t v) const { return surface.delaunay.point(v); }
   bool is_inside(RegionId region) const { return plc.regions[region].inside; }
 
   plc::Plc plc;
   std::size_t bent = 0;  ///< facets of the input
-  folds::ProtectedSurface protection;
+  protection::ProtectedDelaunay surface;
   facets::FacetMesh faces;
 };
 
@@ -100,7 +102,7 @@ void expect_reflex_edges_are_delaunay(const Surface& s) {
       const int turn = orient3d(s.point(t[0]), s.point(t[1]), s.point(t[2]), s.point(apex));
       const plc::Facet& facet = s.plc.facets[s.faces.facet[faces[0]]];
       if ((turn > 0 && s.is_inside(facet.below)) || (turn < 0 && s.is_inside(facet.above))) {
-        EXPECT_TRUE(delaunay::has_edge(s.protection.delaunay.delaunay, edge[0], edge[1]));
+        EXPECT_TRUE(delaunay::has_edge(s.surface.delaunay, edge[0], edge[1]));
       }
     }
   }
@@ -116,7 +118,7 @@ void expect_faces_are_apart(const Surface& s) {
     for (std::size_t j = 0; j < i; ++j) {
       const auto &t = s.faces.triangles[i], &u = s.faces.triangles[j];
       const bool share = std::ranges::any_of(t, [&](VertexId v) { return std::ranges::find(u, v) != u.end(); });
-      EXPECT_FALSE(!share && plc::meet_triangles(corners(i), corners(j)));
+      EXPECT_FALSE(!share && meet_triangles(corners(i), corners(j)));
     }
 }
 
@@ -161,8 +163,6 @@ TEST(Invariant, ExactlyFlatFacetsStayAsTheyAre) {
     const Surface surface(input, usual_flatness);
     EXPECT_EQ(surface.plc.triangles, plc.triangles);
     EXPECT_EQ(surface.plc.segments.size(), plc.segments.size());
-    EXPECT_TRUE(surface.protection.folds.empty());
-    EXPECT_TRUE(surface.protection.origins.empty());
   }
 }
 
@@ -254,7 +254,8 @@ TEST(Contacts, AreOfMovedFacesWithOthersOfWhichOneIsMissing) {
   const delaunay::Delaunay delaunay = delaunay::build_delaunay(points);
   const facets::FacetMesh faces = {{{id(0), id(1), id(2)}, {id(3), id(4), id(5)}}, {FacetId(0), FacetId(1)}};
   const auto contacts = [&](bool first_moved, bool second_moved, std::uint32_t second) {
-    return folds::find_contacts(faces, delaunay, {{FacetId(0), first_moved}, {FacetId(second), second_moved}});
+    return folds::find_contacts(faces, delaunay, front::find_delaunay_faces(faces.triangles, delaunay),
+                                {{FacetId(0), first_moved}, {FacetId(second), second_moved}});
   };
   using Faces = std::vector<std::uint32_t>;
   EXPECT_EQ(contacts(false, false, 1), Faces());
@@ -262,6 +263,60 @@ TEST(Contacts, AreOfMovedFacesWithOthersOfWhichOneIsMissing) {
   EXPECT_EQ(contacts(false, true, 1), Faces({1}));
   EXPECT_EQ(contacts(true, true, 1), Faces({0, 1}));
   EXPECT_EQ(contacts(true, true, 0), Faces());  // of one facet
+}
+
+/// A cube of two parts, on both sides of a square that bends along a diagonal by less than the tolerance.
+InputPlc cube_with_a_bent_diaphragm() {
+  InputPlc cube;
+  for (const double z : {0.0, 0.5, 1.0})
+    for (const auto& [x, y] : {std::array{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}})
+      cube.vertices.push_back({x, y, z});
+  cube.vertices[6].z += 1e-9;
+  for (const std::uint32_t level : {0u, 4u})
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const std::uint32_t a = level + i, b = level + (i + 1) % 4;
+      cube.triangles.push_back({a, b, b + 4}), cube.triangles.push_back({a, b + 4, a + 4});
+    }
+  for (const std::uint32_t level : {0u, 4u, 8u}) {
+    cube.triangles.push_back({level, level + 1, level + 2});
+    cube.triangles.push_back({level, level + 2, level + 3});
+  }
+  return cube;
+}
+
+TEST(Invariant, HoldsWithInteriorVerticesBesideAFold) {
+  const InputPlc input = cube_with_a_bent_diaphragm();
+  MeshOptions options;
+  options.edge_length = 0.1;
+  options.improve.improvement = Improvement::none;
+  options.sphere_factor = 0.1;  // many interior vertices are in the smallest spheres of the faces
+  const MeshResult result = mesh_plc(input, options);
+  EXPECT_GT(result.counts.interior_vertices, 300u);
+  expect_verified(input, result.mesh);
+  options.face_protection = false;
+  options.locator = locate::LocatorKind::octree;
+  expect_same_cells(result.mesh, mesh_plc(input, options).mesh);
+}
+
+/// The protector's answer for a fold that interior vertices have destroyed.
+TEST(Invariant, DoesNotHoldWhereInteriorVerticesDestroyAFold) {
+  plc::Plc plc = plc::build_plc(cube_with_a_bent_diaphragm());
+  const delaunay::Delaunay vertices = delaunay::build_delaunay(plc.vertices);
+  folds::SurfaceProtector protector(plc, vertices, {}, plc::tolerance_of(plc, usual_flatness),
+                                    protection::Protection::shell);
+  const protection::ProtectedDelaunay surface = protector.protect();
+  const std::size_t facets_before = plc.facets.size();
+  const facets::FacetMesh faces = facets::triangulate_facets(plc, surface.chains, surface.delaunay);
+  const auto holds = [&](const delaunay::Delaunay& d) {
+    return protector.holds(d, surface.chains, faces, front::find_delaunay_faces(faces.triangles, d));
+  };
+  EXPECT_TRUE(holds(surface.delaunay));
+  const Point3 middle = 0.5 * (plc.vertices[4] + plc.vertices[6]);
+  delaunay::Delaunay with_points = surface.delaunay;
+  const std::array points = {middle + Point3{0, 0, 0x1p48}, middle - Point3{0, 0, 0x1p48}};
+  insert_points(with_points, points, {});
+  EXPECT_FALSE(holds(with_points));
+  EXPECT_EQ(plc.facets.size(), facets_before + 1);  // the halves of the diaphragm are facets of their own
 }
 
 TEST(Invariant, GivesTheSameMeshForAllStrategies) {
