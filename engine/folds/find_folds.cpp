@@ -51,7 +51,7 @@ class FoldFinder {
     for_each_edge_group(sides, [&](std::span<const AtEdge> around) {
       if (around.size() > 1) look_at(around);
     });
-    for (auto* list : {&loose_.faces, &loose_.segments}) {
+    for (auto* list : {&loose_.faces, &loose_.segments, &loose_.touching}) {
       std::ranges::sort(*list);
       const auto repeated = std::ranges::unique(*list);
       list->erase(repeated.begin(), repeated.end());
@@ -67,20 +67,17 @@ class FoldFinder {
     const std::uint32_t* const segment = segment_of_.find(edge);
     if (std::ranges::all_of(around, [&](const AtEdge& side) { return facet_of(side).exactly_flat; })) return;
     if (segment == nullptr) {
-      if (!is_delaunay(around) && is_grazeable(around, false)) add_faces(around);
+      if (!is_delaunay(around) && is_grazeable(around, false))
+        for (const AtEdge& side : around) loose_.faces.push_back(side.value);
       return;
     }
     for (std::size_t i = 1; i < around.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (facets_.facet[around[i].value] == facets_.facet[around[j].value] &&
             !has_segment(facet_of(around[i]), *segment))
-          add_faces(std::array{around[i], around[j]});
+          loose_.touching.insert(loose_.touching.end(), {around[i].value, around[j].value});
     if (!plc_.segments[*segment].grazeable && !is_delaunay(around) && is_grazeable(around, true))
       loose_.segments.push_back(*segment);
-  }
-
-  void add_faces(std::span<const AtEdge> around) {
-    for (const AtEdge& side : around) loose_.faces.push_back(side.value);
   }
 
   bool is_delaunay(std::span<const AtEdge> around) const {

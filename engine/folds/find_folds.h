@@ -10,14 +10,13 @@
 
 namespace ccdt::folds {
 
-/// Grazeable edges of the faces that are not Delaunay. Protection does not know of them: a *fold* is an edge within a
-/// bent facet at which two faces are not coplanar. Like a segment, it is grazeable if a sector of the domain of 180
-/// degrees or more is around it.
+/// Edges of the faces that keep the theorem from holding; all lists ascend. Protection does not know of them: a *fold*
+/// is an edge within a bent facet at which two faces are not coplanar. Like a segment, it is grazeable if a sector of
+/// the domain of 180 degrees or more is around it.
 struct LooseFolds {
   std::vector<std::uint32_t> segments;  ///< grazeable with these faces, and not protected
-  std::vector<std::uint32_t> faces;     ///< at folds, also at those along a segment of another facet; ascending
-
-  bool empty() const { return segments.empty() && faces.empty(); }
+  std::vector<std::uint32_t> faces;     ///< at grazeable folds that are not Delaunay
+  std::vector<std::uint32_t> touching;  ///< faces at folds along a segment of another facet
 };
 
 /// \param delaunay  has all vertices of the facets

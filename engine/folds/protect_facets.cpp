@@ -49,16 +49,12 @@ bool SurfaceProtector::holds(const delaunay::Delaunay& delaunay, const protectio
   if (!divider_) return true;
   const std::vector<FacetOrigin> origins = divider_->origins();
   const LooseFolds loose = find_loose_folds(plc_, delaunay, chains, faces, codes);
-  divider_->make_grazeable(plc_, loose.segments);
-  divider_->divide(faces, loose.faces, origins, delaunay);
-  bool holds = loose.empty();
-  if (holds) {
-    const std::vector<std::uint32_t> contacts = find_contacts(faces, delaunay, codes, origins);
-    divider_->follow_input(faces, contacts, origins);
-    holds = contacts.empty();
-  }
-  if (!holds) plc_ = divider_->divided();
-  return holds;
+  bool changed = divider_->make_grazeable(plc_, loose.segments);
+  changed |= divider_->divide(faces, loose.faces, origins, delaunay);
+  changed |= divider_->follow_input(faces, loose.touching, origins);
+  if (!changed) changed = divider_->follow_input(faces, find_contacts(faces, delaunay, codes, origins), origins);
+  if (changed) plc_ = divider_->divided();
+  return !changed;
 }
 
 }  // namespace ccdt::folds

@@ -22,6 +22,9 @@ namespace ccdt::folds {
 /// tolerance away. Facets for which that is not so are divided (`FacetDivider`), and all starts again from the vertices
 /// of the PLC. This ends, because each time a facet is divided further, and the triangles of the input have no folds
 /// and meet nothing.
+///
+/// Where a division cannot be protected, as at the tip of a wedge, the facet is given up: its folds are not protected.
+/// The front may get stuck there, although we know no input where it does.
 class SurfaceProtector {
  public:
   /// \param plc        gets the segments and facets of the divisions; must outlive this

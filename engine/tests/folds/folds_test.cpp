@@ -288,7 +288,7 @@ TEST(Invariant, HoldsWithInteriorVerticesBesideAFold) {
   const InputPlc input = cube_with_a_bent_diaphragm();
   MeshOptions options;
   options.edge_length = 0.1;
-  options.improve.improvement = Improvement::none;
+  options.improve = {.improvement = Improvement::none, .steiner = SteinerRule::keep};
   options.sphere_factor = 0.1;  // many interior vertices are in the smallest spheres of the faces
   const MeshResult result = mesh_plc(input, options);
   EXPECT_GT(result.counts.interior_vertices, 300u);
