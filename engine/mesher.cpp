@@ -290,13 +290,18 @@ Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
     delaunay::Delaunay all;
     facets::FacetMesh facets = add_interior_points(protector, run, t, all);
     std::vector<std::uint32_t> codes = run.measured(Stage::face_check, [&] { return find_faces(t, all, facets); });
-    if (!run.measured(Stage::face_check, [&] { return protector.holds(all, t.chains, facets, codes); })) continue;
+    if (!run.measured(Stage::face_check, [&] { return protector.is_protected(all, t.chains, facets, codes); }))
+      continue;
     t.counts.faces = facets.triangles.size();
     // Only for the report, so it is not the work of a stage.
     t.counts.segments = front::count_segments(t.plc, t.chains, facets, codes, all);
     t.counts.undelaunay_faces = static_cast<std::size_t>(std::ranges::count(codes, delaunay::no_neighbor));
-    fill_domain(all, facets, std::move(codes), run, t);
-    return t;
+    try {
+      fill_domain(all, facets, std::move(codes), run, t);
+      return t;
+    } catch (const MeshError&) {
+      if (!protector.protect_folds()) throw;
+    }
   }
 }
 

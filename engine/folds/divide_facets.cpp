@@ -136,12 +136,12 @@ bool FacetDivider::separate(std::uint32_t f, const std::array<Point3, 3>& face) 
   return changed;
 }
 
-bool FacetDivider::divide(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
+void FacetDivider::divide(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
                           const std::vector<FacetOrigin>& origins, const delaunay::Delaunay& delaunay) {
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_of;  // by facet
   for (const std::uint32_t face : which) faces_of[origins[faces.facet[face]].facet].push_back(face);
-  std::erase_if(faces_of, [&](const auto& its) { return !is_bent(its.first) || step_[its.first] == Step::given_up; });
   for (const auto& [f, its] : faces_of) {
+    if (!is_bent(f)) continue;
     if (step_[f] == Step::input) throw MeshError("a flat facet bends", {}, "this is a bug: please report it");
     if (step_[f] == Step::whole) step_[f] = touches_segment(f) ? Step::input : Step::most_triangles;
     bool changed = false;
@@ -151,51 +151,30 @@ bool FacetDivider::divide(const facets::FacetMesh& faces, std::span<const std::u
     }
     if (!changed) step_[f] = step_[f] == Step::most_triangles ? Step::needles : Step::input;
   }
-  return !faces_of.empty();
 }
 
-bool FacetDivider::follow_input(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
+void FacetDivider::follow_input(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
                                 const std::vector<FacetOrigin>& origins) {
-  for (const std::uint32_t face : which) {
-    Step& step = step_[origins[faces.facet[face]].facet];
-    if (step == Step::given_up) {
-      Place place{.file = plc_.name};
-      for (const VertexId v : faces.triangles[face])
-        if (v < plc_.world.size()) place.points.push_back(as_array(plc_.world[v]));
-      throw MeshError("a facet that is flat only within the tolerance meets another one", place,
-                      "a smaller --flatness may help");
-    }
-    step = Step::input;
-  }
-  return !which.empty();
-}
-
-bool FacetDivider::make_grazeable(const plc::Plc& plc, std::span<const std::uint32_t> segments) {
-  bool any_is_new = false;
-  for (const std::uint32_t s : segments)
-    any_is_new |= grazeable_.insert(edge_key(plc.segments[s].ends[0], plc.segments[s].ends[1]), true).second;
-  return any_is_new;
+  for (const std::uint32_t face : which) step_[origins[faces.facet[face]].facet] = Step::input;
 }
 
 bool FacetDivider::give_way(const std::array<VertexId, 2>& segment) {
-  if (bool* const is_grazeable = grazeable_.find(edge_key(segment[0], segment[1])); is_grazeable && *is_grazeable) {
-    *is_grazeable = false;
-    return true;
+  std::vector<std::uint32_t> divided, beside;
+  for (std::uint32_t f = 0; f < step_.size(); ++f) {
+    if (step_[f] == Step::whole || step_[f] == Step::input) continue;
+    divided.push_back(f);
+    const bool has_end = std::ranges::any_of(triangles_of(f), [&](const Triangle& t) {
+      return std::ranges::any_of(segment, [&](VertexId v) { return std::ranges::find(t, v) != t.end(); });
+    });
+    if (has_end) beside.push_back(f);
   }
-  const auto has_end = [&](const Triangle& t) {
-    return std::ranges::any_of(segment, [&](VertexId v) { return std::ranges::find(t, v) != t.end(); });
-  };
-  const auto move_on = [&](bool to_input) {
-    std::vector<std::uint32_t> divided, beside;
-    for (std::uint32_t f = 0; f < step_.size(); ++f) {
-      if (is_whole(f) || !is_bent(f) || (step_[f] != Step::input) != to_input) continue;
-      divided.push_back(f);
-      if (std::ranges::any_of(triangles_of(f), has_end)) beside.push_back(f);
-    }
-    for (const std::uint32_t f : beside.empty() ? divided : beside) step_[f] = to_input ? Step::input : Step::given_up;
-    return !divided.empty();
-  };
-  return move_on(true) || move_on(false);
+  for (const std::uint32_t f : beside.empty() ? divided : beside) step_[f] = Step::input;
+  return !divided.empty();
+}
+
+void FacetDivider::make_grazeable(const plc::Plc& plc, std::span<const std::uint32_t> segments) {
+  for (const std::uint32_t s : segments)
+    grazeable_.push_back(edge_key(plc.segments[s].ends[0], plc.segments[s].ends[1]));
 }
 
 /// The triangles of a facet with the same number are one facet.
@@ -237,7 +216,7 @@ plc::Plc FacetDivider::divided() const {
   result.facets.clear(), result.triangles.clear(), result.faces.clear();
   for (std::uint32_t f = 0; f < step_.size(); ++f) {
     plc::Facet part = plc_.facets[f];
-    if (is_whole(f)) {
+    if (step_[f] == Step::whole) {
       result.add(part, plc_.triangles_of(part));
       continue;
     }
@@ -247,20 +226,20 @@ plc::Plc FacetDivider::divided() const {
     }
     add_segments(f, result);
   }
-  HashSet<std::uint64_t> known = ends_of(plc_.segments);
+  HashSet<std::uint64_t> grazeable, known = ends_of(plc_.segments);
+  for (const std::uint64_t ends : grazeable_) grazeable.insert(ends, {});
   const auto end_key = [](const plc::Segment& s) { return edge_key(s.ends[0], s.ends[1]); };
   const auto first_new = result.segments.begin() + static_cast<std::ptrdiff_t>(plc_.segments.size());
   const auto is_known = [&](const plc::Segment& s) { return !known.insert(end_key(s), {}).second; };
   result.segments.erase(std::remove_if(first_new, result.segments.end(), is_known), result.segments.end());
-  for (plc::Segment& s : result.segments)
-    if (const bool* const is_grazeable = grazeable_.find(end_key(s))) s.grazeable |= *is_grazeable;
+  for (plc::Segment& s : result.segments) s.grazeable = s.grazeable || grazeable.contains(end_key(s));
   return result;
 }
 
 std::vector<FacetOrigin> FacetDivider::origins() const {
   std::vector<FacetOrigin> origins;
   for (std::uint32_t f = 0; f < step_.size(); ++f) {
-    const std::size_t parts = is_whole(f) ? 1 : parts_of(f).size();
+    const std::size_t parts = step_[f] == Step::whole ? 1 : parts_of(f).size();
     origins.insert(origins.end(), parts, {FacetId(f), is_bent(f) && step_[f] != Step::input});
   }
   return origins;

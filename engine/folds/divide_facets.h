@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/hash_table.h"
 #include "engine/base/point.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/facets/facet_mesh.h"
@@ -21,7 +20,6 @@ namespace ccdt::folds {
 /// 2. Needles become facets, too.
 /// 3. All triangles that the input has there become facets. These do not meet others of the input, but they may be
 ///    needles.
-/// 4. Where not even these can be protected, the facet is *given up*: it stays whole, and its folds unprotected.
 class FacetDivider {
  public:
   /// \param plc        must outlive this
@@ -39,36 +37,30 @@ class FacetDivider {
   /// \param faces     of the facets of `divided()`
   /// \param origins   of those
   /// \param delaunay  of all their vertices
-  /// \return  false if all of them are given up
-  bool divide(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
+  /// \throw MeshError  a facet has the triangles of the input already, which is an error of this program
+  void divide(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
               const std::vector<FacetOrigin>& origins, const delaunay::Delaunay& delaunay);
 
   /// Gives facets the triangles of the input where these faces are.
-  ///
-  /// \return           false if there are none
-  /// \throw MeshError  one of them is given up
-  bool follow_input(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
+  void follow_input(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
                     const std::vector<FacetOrigin>& origins);
+
+  /// Gives up the divisions in the way of a segment that cannot be protected: the facets with its ends, or if there are
+  /// none all divided facets, get the triangles of the input.
+  ///
+  /// \return  false if they have them already
+  bool give_way(const std::array<VertexId, 2>& segment);
 
   /// These segments must be protected from now on.
   ///
   /// \param plc  `divided()`, which has them
-  /// \return  false if all of them are given up
-  bool make_grazeable(const plc::Plc& plc, std::span<const std::uint32_t> segments);
-
-  /// Gives up what is in the way of a segment that cannot be protected: its own protection, if the input does not ask
-  /// for it; or the facets with its ends, or if there are none all divided facets, go on to the triangles of the input
-  /// or, if they have them, are given up.
-  ///
-  /// \return  false if nothing is left to give up
-  bool give_way(const std::array<VertexId, 2>& segment);
+  void make_grazeable(const plc::Plc& plc, std::span<const std::uint32_t> segments);
 
  private:
   using Triangle = std::array<VertexId, 3>;
-  enum class Step : std::uint8_t { whole, most_triangles, needles, input, given_up };
+  enum class Step : std::uint8_t { whole, most_triangles, needles, input };
 
   bool is_bent(std::uint32_t facet) const { return !plc_.facets[facet].exactly_flat; }
-  bool is_whole(std::uint32_t facet) const { return step_[facet] == Step::whole || step_[facet] == Step::given_up; }
   std::array<Point3, 3> corners_of(const Triangle& t) const;
   std::span<const Triangle> triangles_of(std::uint32_t facet) const;
   std::uint32_t leader(std::uint32_t triangle) const;
@@ -81,11 +73,11 @@ class FacetDivider {
   const plc::Plc& plc_;
   double least_height_;  // of triangles that are not needles
   facets::FacetMesh mesh_;
-  std::vector<std::uint32_t> first_;          // of the triangles of `mesh_`, by facet
-  std::vector<std::uint32_t> across_;         // of 3 * triangle + edge: a triangle of the same bent facet, if any
-  std::vector<std::uint8_t> is_separate_;     // by triangle
-  std::vector<Step> step_;                    // by facet
-  HashTable<std::uint64_t, bool> grazeable_;  // segments, by their ends; false: given up
+  std::vector<std::uint32_t> first_;       // of the triangles of `mesh_`, by facet
+  std::vector<std::uint32_t> across_;      // of 3 * triangle + edge: a triangle of the same bent facet, if any
+  std::vector<std::uint8_t> is_separate_;  // by triangle
+  std::vector<Step> step_;                 // by facet
+  std::vector<std::uint64_t> grazeable_;   // segments, by their ends
 };
 
 }  // namespace ccdt::folds

@@ -38,23 +38,35 @@ ProtectedDelaunay SurfaceProtector::protect(const Progress& progress) {
   }
   for (;;) {
     ProtectedDelaunay surface = protect_segments(progress);
+    if (!protects_folds_) return surface;
     const facets::FacetMesh faces = facets::triangulate_facets(plc_, surface.chains, surface.delaunay, progress);
     const auto codes = front::find_delaunay_faces(faces.triangles, surface.delaunay);
-    if (holds(surface.delaunay, surface.chains, faces, codes)) return surface;
+    if (is_protected(surface.delaunay, surface.chains, faces, codes)) return surface;
   }
 }
 
-bool SurfaceProtector::holds(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
-                             const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) {
+bool SurfaceProtector::protect_folds() {
+  return divider_ && !std::exchange(protects_folds_, true);
+}
+
+bool SurfaceProtector::is_protected(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
+                                    const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) {
   if (!divider_) return true;
   const std::vector<FacetOrigin> origins = divider_->origins();
   const LooseFolds loose = find_loose_folds(plc_, delaunay, chains, faces, codes);
-  bool changed = divider_->make_grazeable(plc_, loose.segments);
-  changed |= divider_->divide(faces, loose.faces, origins, delaunay);
-  changed |= divider_->follow_input(faces, loose.touching, origins);
-  if (!changed) changed = divider_->follow_input(faces, find_contacts(faces, delaunay, codes, origins), origins);
-  if (changed) plc_ = divider_->divided();
-  return !changed;
+  if (!protects_folds_)
+    return (loose.touching.empty() && find_contacts(faces, delaunay, codes, origins).empty()) || !protect_folds();
+  divider_->make_grazeable(plc_, loose.segments);
+  divider_->divide(faces, loose.faces, origins, delaunay);
+  divider_->follow_input(faces, loose.touching, origins);
+  bool is_protected = loose.segments.empty() && loose.faces.empty() && loose.touching.empty();
+  if (is_protected) {
+    const std::vector<std::uint32_t> contacts = find_contacts(faces, delaunay, codes, origins);
+    divider_->follow_input(faces, contacts, origins);
+    is_protected = contacts.empty();
+  }
+  if (!is_protected) plc_ = divider_->divided();
+  return is_protected;
 }
 
 }  // namespace ccdt::folds

@@ -12,19 +12,18 @@
 
 namespace ccdt::folds {
 
-/// Establishes the invariant from which the rest follows: all faces and segments form a PLC of flat facets, and all its
-/// grazeable edges are Delaunay. So there is a constrained Delaunay tetrahedralization (Shewchuk 2002), and the front
-/// cannot get stuck.
+/// Protects a surface until it has a constrained Delaunay tetrahedralization.
 ///
-/// For exactly flat facets it is enough to protect the segments (`protection::protect_edges`). A bent facet, one that
-/// is flat only within the tolerance, is not one facet of that PLC: each of its faces is. Then the folds between them
-/// must be Delaunay if they are grazeable, and no face may meet another facet, of which it may have been less than the
-/// tolerance away. Facets for which that is not so are divided (`FacetDivider`), and all starts again from the vertices
-/// of the PLC. This ends, because each time a facet is divided further, and the triangles of the input have no folds
-/// and meet nothing.
+/// For exactly flat facets it is enough to protect the segments (`protection::protect_edges`; Shewchuk 2002). A bent
+/// facet, one that is flat only within the tolerance, is not one facet in the sense of that theorem: each of its faces
+/// is. Then *folds*, the edges between these, must be Delaunay, too, if they are grazeable, and no face may meet
+/// another facet, of which it may have been less than the tolerance away. Facets for which that is not so are divided
+/// (`FacetDivider`), and all starts again from the vertices of the PLC. This ends, because each time a facet is divided
+/// further, and the triangles of the input have no folds and meet nothing.
 ///
-/// Where a division cannot be protected, as at the tip of a wedge, the facet is given up: its folds are not protected.
-/// The front may get stuck there, although we know no input where it does.
+/// Hardly any surface needs its folds, and some cannot have them: where vertices on both sides of a wedge are close to
+/// each other, protection would never end. So folds are protected only after the front has got stuck without that, or
+/// if faces meet.
 class SurfaceProtector {
  public:
   /// \param plc        gets the segments and facets of the divisions; must outlive this
@@ -36,18 +35,23 @@ class SurfaceProtector {
   SurfaceProtector(const SurfaceProtector&) = delete;  // a member refers to another one
   SurfaceProtector& operator=(const SurfaceProtector&) = delete;
 
-  /// A surface for whose vertices the invariant holds.
+  /// A surface whose segments are protected, and its folds after `protect_folds`.
   ///
   /// \throw LimitError  a segment cannot be protected, however the facets around it are divided
   protection::ProtectedDelaunay protect(const Progress& progress = {});
 
-  /// Does the invariant hold with all vertices? If not, facets have been divided, and `protect` must be called again.
+  /// From now on, folds are protected, too; `protect` must be called again.
+  ///
+  /// \return  false if nothing changes
+  bool protect_folds();
+
+  /// Is the surface protected with all vertices? If not, facets have been divided, and `protect` must be called again.
   ///
   /// \param delaunay  of all vertices
   /// \param faces     of the facets
   /// \param codes     of the faces, see `front::find_delaunay_faces`
-  bool holds(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
-             const facets::FacetMesh& faces, std::span<const std::uint32_t> codes);
+  bool is_protected(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
+                    const facets::FacetMesh& faces, std::span<const std::uint32_t> codes);
 
  private:
   protection::ProtectedDelaunay protect_segments(const Progress& progress);
@@ -56,6 +60,7 @@ class SurfaceProtector {
   delaunay::Delaunay delaunay_;  // these two are moved from if no facet is bent
   protection::SegmentChains chains_;
   protection::Protection strategy_;
+  bool protects_folds_ = false;
   plc::Plc undivided_;                   // if any facet is bent
   std::optional<FacetDivider> divider_;  // of `undivided_`
 };

@@ -74,6 +74,7 @@ struct Surface {
     bent = static_cast<std::size_t>(std::ranges::count(plc.facets, false, &plc::Facet::exactly_flat));
     folds::SurfaceProtector protector(plc, delaunay::build_delaunay(plc.vertices), {}, plc::tolerance_of(plc, flatness),
                                       protection::Protection::shell);
+    protector.protect_folds();
     surface = protector.protect();
     faces = facets::triangulate_facets(plc, surface.chains, surface.delaunay);
   }
@@ -304,11 +305,12 @@ TEST(Invariant, DoesNotHoldWhereInteriorVerticesDestroyAFold) {
   const delaunay::Delaunay vertices = delaunay::build_delaunay(plc.vertices);
   folds::SurfaceProtector protector(plc, vertices, {}, plc::tolerance_of(plc, usual_flatness),
                                     protection::Protection::shell);
+  protector.protect_folds();
   const protection::ProtectedDelaunay surface = protector.protect();
   const std::size_t facets_before = plc.facets.size();
   const facets::FacetMesh faces = facets::triangulate_facets(plc, surface.chains, surface.delaunay);
   const auto holds = [&](const delaunay::Delaunay& d) {
-    return protector.holds(d, surface.chains, faces, front::find_delaunay_faces(faces.triangles, d));
+    return protector.is_protected(d, surface.chains, faces, front::find_delaunay_faces(faces.triangles, d));
   };
   EXPECT_TRUE(holds(surface.delaunay));
   const Point3 middle = 0.5 * (plc.vertices[4] + plc.vertices[6]);
