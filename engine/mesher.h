@@ -1,88 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <vector>
 
-#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/base/stages.h"
-#include "engine/delaunay/options.h"
-#include "engine/front/options.h"
-#include "engine/front/segment_counts.h"
-#include "engine/improve/counts.h"
-#include "engine/improve/options.h"
-#include "engine/lattice/options.h"
-#include "engine/locate/options.h"
 #include "engine/mesh/tet_mesh.h"
+#include "engine/mesh_options.h"
 #include "engine/plc/input.h"
-#include "engine/protection/options.h"
 
 namespace ccdt {
-
-// The names that a user of the engine needs, each from its stage.
-using delaunay::DelaunayMethod;
-using front::SegmentCounts;
-using front::Visibility;
-using improve::BoundaryRule;
-using improve::ImproveCounts;
-using improve::Improvement;
-using improve::ImproveOptions;
-using improve::ImproveStop;
-using improve::SteinerRule;
-using lattice::Lattice;
-using locate::LocatorKind;
-using mesh::TetMesh;
-using plc::InputPlc;
-using plc::PolygonFacet;
-using protection::Protection;
-using sizes::BackgroundSizes;
-using tets::Objective;
-
-/// The strategies of the engine and their parameters.
-struct MeshOptions {
-  bool face_protection = true;  ///< check which faces are Delaunay first; off: every face goes through the front
-  Lattice lattice = Lattice::fcc;
-  Protection protection = Protection::shell;
-  LocatorKind locator = LocatorKind::cavity;
-  DelaunayMethod delaunay = DelaunayMethod::core;
-  Visibility visibility = Visibility::centroid;
-  double least_core = 0.35;  ///< `core` inserts all points if a smaller share of the lattice than this is deep within
-                             ///< one level, because searching for cores would then take longer; 0: always search
-  double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
-  bool refine_surface = false;   ///< give facets and segments vertices for even triangles; see `refine::refine_plc`
-  double thin_tetrahedra = 2e6;  ///< at most about these are due to thin places of a refined surface
-  double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it, or, if that
-                           ///< is refined, a fortieth of the diagonal of the bounding box
-  double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  double flatness = usual_flatness;             ///< see PlcOptions
-  double sphere_factor = 1;                     ///< see LatticeOptions
-  double clearance = lattice::usual_clearance;  ///< see LatticeOptions
-  double radius_edge = 2;                       ///< see LatticeOptions
-  unsigned threads = 0;                         ///< that work at the same time; 0: one for each core. Same mesh.
-  ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`
-  /// A size function, in the units of the input; it replaces the edge lengths of the surface.
-  BackgroundSizes background = {};
-};
-
-struct MeshCounts {
-  std::uint64_t vertices = 0;           ///< of the mesh
-  std::uint64_t steiner_vertices = 0;   ///< added on segments and facets
-  std::uint64_t interior_vertices = 0;  ///< lattice points, after improvement
-  std::uint64_t tetrahedra = 0;
-  std::uint64_t faces = 0;             ///< triangles on facets
-  std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
-  std::uint64_t front_tetrahedra = 0;  ///< tetrahedra built by the front
-  /// Steiner vertices on segments, by level from 1: how many splits led to the piece that they split, and one more.
-  std::vector<std::uint64_t> splits_by_level = {};
-  std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that could have destroyed a protected edge
-  std::uint64_t core_tetrahedra = 0;            ///< of the Delaunay tetrahedra, those of lattice cores (`core` only)
-  std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
-  std::uint64_t refined_on_segments = 0;       ///< vertices that refinement gave to segments
-  std::uint64_t refined_in_facets = 0;         ///< and to facets
-  std::optional<SegmentCounts> segments = {};  ///< only of ccdt
-  ImproveCounts improve = {};
-};
 
 struct MeshResult {
   TetMesh mesh;
@@ -92,24 +18,20 @@ struct MeshResult {
   std::uint64_t idle_holes = 0;  ///< seeds of holes where nothing is enclosed; they were not used
 };
 
-/// The improvement with these options: the given one; by default everything, but nothing if the lattice is `none`,
-/// because the result is then a mesh of the surface alone: with `SteinerRule::keep`, the constrained Delaunay
-/// tetrahedralization of the input.
-Improvement improvement_of(const MeshOptions& options);
-
 /// On how many threads `mesh_plc` works with these options.
 unsigned number_of_threads(const MeshOptions& options);
 
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
 /// \param input       facets in any units, which also apply to lengths and to the mesh; polygons that are not planar
-///                    are triangulated so that they bend least
+///                    are triangulated so that they bend least. With `SurfaceRule::remesh`, the mesh bounds the surface
+///                    that `surface::remesh_surface` makes
 /// \param options     strategies, sizes and targets of improvement
 /// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
 ///                    released
-/// \throw InputError  the input is not a valid PLC
+/// \throw InputError  the input is not a valid PLC, or remeshing has no edge length
 /// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh too many vertices
-/// \throw MeshError   no valid mesh was found
+/// \throw MeshError   no valid mesh or new surface was found
 /// \throw ...         any exception of `progress`
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});
 

@@ -20,6 +20,7 @@ set(public_headers
   lattice/options.h
   locate/options.h
   mesh/tet_mesh.h
+  mesh_options.h
   mesher.h
   plc/input.h
   protection/options.h
@@ -27,6 +28,7 @@ set(public_headers
   repair/find_faults.h
   repair/repair_input.h
   sizes/background_sizes.h
+  surface/options.h
   surface/remesh_surface.h
   tets/objective.h
 )

@@ -8,6 +8,7 @@
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
+#include "baselines/option_table.h"
 #include "baselines/stop.h"
 #include "bench/run/fingerprint.h"
 #include "bench/run/numbers.h"
@@ -16,15 +17,13 @@
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/base/stage_scope.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/edge_length_bounds.h"
-#include "engine/surface/remesh_surface.h"
+#include "engine/surface/prepare_surface.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
@@ -36,35 +35,22 @@
 namespace ccdt::tools {
 namespace {
 
-/// Which triangles bound the mesh.
-enum class Surface { keep, remesh, refine };
-
-constexpr auto names_of(Surface) {
-  return std::to_array<NamedValue<Surface>>(
-      {{Surface::keep, "keep", "keep the triangles of the input"},
-       {Surface::remesh, "remesh", "make new triangles of --edge-length; sharp edges stay"},
-       {Surface::refine, "refine",
-        "make new triangles of --edge-length on the same flat facets and straight segments"}});
-}
-
 struct MeshCommand {
   std::string input, output, report;
   std::string surface_output;  ///< file for the remeshed surface
   std::string mesher = "ccdt";
   MeshOptions options;
-  Surface surface = Surface::keep;
-  double sharp_angle = surface::RemeshOptions().sharp_angle;
   baselines::Strategies strategies = baselines::Strategies::usual;
   baselines::NamedOptions given;  ///< the options on the command line
 };
 
 void check_surface_options(const MeshCommand& command) {
-  const bool remesh = command.surface == Surface::remesh;
+  const bool remesh = command.options.surface == SurfaceRule::remesh;
   if (remesh && command.options.edge_length == 0)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
   if (!remesh && !command.surface_output.empty())
     throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh");
-  if (command.surface == Surface::refine && command.mesher != "ccdt")
+  if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
     throw CLI::ValidationError("--surface refine",
                                "only ccdt refines a surface; use --surface remesh for other meshers");
 }
@@ -108,34 +94,18 @@ std::string note_of(const InputPlc::Bent& bent) {
          deviation + ": triangulated so that they bend least";
 }
 
-/// A length that is too long or too short is probably in the wrong unit. The diagonal of the bounding box replaces a
-/// longer one.
-///
-/// \throw LimitError  the mesh would have too many vertices; ccdt itself finds that out where only the inside is filled
-void check_edge_length(const MeshCommand& command, const InputPlc& input, MeshOptions& options,
-                       bench::RunRecord& record) {
-  if (options.edge_length == 0) return;
-  const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
-  if (command.surface != Surface::keep || others_fill) plc::check_edges_of_surface(input, options.edge_length);
-  const double longest = plc::longest_edge(input);
-  if (options.edge_length <= longest) return;
-  record.notes.push_back("--edge-length " + digits(options.edge_length) +
-                         " is longer than the whole part: " + bench::rounded(longest) +
-                         ", the diagonal of its bounding box, was used instead; check the unit");
-  options.edge_length = longest;
-}
-
 /// Another mesher leaves out what only ccdt can do. Its user should know.
 std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
   if (chosen.name == "ccdt") return {};
-  std::vector<std::string> used = {"surface", "sizes"};  // they have messages of their own
-  if (command.surface == Surface::remesh) used.insert(used.end(), {"edge-length", "flatness", "sharp-angle"});
+  const bool remesh = command.options.surface == SurfaceRule::remesh;
   std::vector<std::string> notes;
   for (const auto& [name, value] : command.given) {
+    const baselines::MeshOption* const option = baselines::find_mesh_option(name);
+    if (option == nullptr || name == "surface" || name == "sizes") continue;  // they have messages of their own
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
     if (use == chosen.options.end()) {
-      if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
+      if (!(remesh && option->of_remeshing))
         notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
     } else if (use->only_none && value != "none") {
       notes.push_back("--" + name + " was not used: " + chosen.name + " supports only 'none' and its own default");
@@ -149,26 +119,40 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
-  if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
-  if (command.surface != Surface::keep) record.set_option("surface", std::string(name_of(command.surface)));
-  if (command.surface == Surface::remesh) {
-    record.set_option("sharp_angle", command.sharp_angle);
-  }
   return record;
 }
 
-/// The surface with edges of the wanted length; any mesher may use it.
-InputPlc remeshed(const MeshCommand& command, const InputPlc& input, double edge_length, const Progress& progress,
+/// The surface that the mesher gets. What had to be changed is noted: a length that is too long or too short is
+/// probably in the wrong unit.
+///
+/// \param options     get the edge length and the rule that remain for the mesher
+/// \throw LimitError  the mesh would have too many vertices; ccdt itself finds that out where only the inside is filled
+InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& options, const Progress& progress,
                   bench::RunRecord& record) {
-  const StageScope scope(record.costs[Stage::remesh]);
-  InputPlc surface = surface::remesh_surface(
-      input, {.edge_length = edge_length, .sharp_angle = command.sharp_angle, .flatness = command.options.flatness},
-      progress);
-  record.notes.push_back("the surface was remeshed from " + bench::with_separators(input.facet_count()) + " to " +
-                         bench::with_separators(surface.facet_count()) + " facets");
-  if (!command.surface_output.empty()) io::write_plc(surface, command.surface_output);
-  return surface;
+  surface::PreparedSurface surface = surface::prepare_surface(
+      input, options.surface, {options.edge_length, options.sharp_angle, options.flatness}, progress);
+  record.read_seconds += surface.costs[Stage::plc].seconds;
+  record.costs[Stage::remesh] = surface.costs[Stage::remesh];
+  record.input.facets = surface.facets;
+  if (surface.changed) input = *std::move(surface.changed);
+  record.input.nonplanar_facets = input.bent.count;
+  record.input.largest_deviation = input.bent.largest_deviation;
+  if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
+  if (options.edge_length > surface.edge_length)
+    record.notes.push_back("--edge-length " + digits(options.edge_length) +
+                           " is longer than the whole part: " + bench::rounded(surface.edge_length) +
+                           ", the diagonal of its bounding box, was used instead; check the unit");
+  options.edge_length = surface.edge_length;
+  if (options.surface == SurfaceRule::remesh) {
+    record.notes.push_back("the surface was remeshed from " + bench::with_separators(surface.facets) + " to " +
+                           bench::with_separators(input.facet_count()) + " facets");
+    if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
+    options.surface = SurfaceRule::keep;
+  }
+  const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
+  if (others_fill && options.edge_length > 0) plc::check_edges_of_surface(input, options.edge_length);
+  return input;
 }
 
 std::string words_of(const bench::SurfaceLimit& limit) {
@@ -201,7 +185,7 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   if (!options.background.empty() && record.mesher.name != "ccdt")
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(result.mesh);
-  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none &&
+  if (command.options.surface == SurfaceRule::keep && improvement_of(options) != Improvement::none &&
       record.quality.r.max > bench::SurfaceLimit::bad_r)
     if (const bench::SurfaceLimit limit = bench::find_surface_limit(result.mesh); limit.limits_quality())
       record.notes.push_back(words_of(limit));
@@ -230,21 +214,18 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   double read_seconds = 0;
   InputPlc input = [&] {
     const Stopwatch watch(read_seconds);
-    InputPlc given = io::read_plc(command.input);
-    return plc::triangulate_bent_facets(given).value_or(std::move(given));
+    return io::read_plc(command.input);
   }();
   record = begin_record(command, input);
+  record.read_seconds = read_seconds;
   if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
-  check_edge_length(command, input, options, record);
-  if (command.surface == Surface::remesh) input = remeshed(command, input, options.edge_length, progress, record);
-  options.refine_surface = command.surface == Surface::refine;
+  input = prepared(command, std::move(input), options, progress, record);
   if (!options.background.name.empty()) {
-    const Stopwatch watch(read_seconds);
+    const Stopwatch watch(record.read_seconds);
     options.background = io::read_sizes(options.background.name);
     check_are_different(options.background.mesh_name, command.output);
   }
-  record.read_seconds = read_seconds;
 
   record.mesher_settings = baselines::settings_of(chosen, input, options);
   leave_provisional_record(command, record);
@@ -273,7 +254,7 @@ void record_failure(const MeshCommand& command, bench::RunRecord& record, const 
 bool is_small(const MeshCommand& command) {
   constexpr std::uintmax_t small_file = 100'000;  // bytes
   std::error_code unreadable;                     // is reported where the file is read
-  return command.options.lattice == Lattice::none && command.surface == Surface::keep &&
+  return command.options.lattice == Lattice::none && command.options.surface == SurfaceRule::keep &&
          std::filesystem::file_size(command.input, unreadable) <= small_file && !unreadable;
 }
 
@@ -330,90 +311,14 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
 }
 
-void add_strategies(CLI::App& verb, MeshCommand& command) {
+void add_options(CLI::App& verb, MeshCommand& command) {
+  add_files(verb, command);
   verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
-
   add_choice(verb, "--strategies", command.strategies, "strategies that belong together; other options replace them");
-  constexpr auto protected_faces = std::to_array<NamedValue<bool>>(
-      {{true, "on", "only faces that are not Delaunay, found by a check"}, {false, "off", "all"}});
-  add_choice(verb, "--face-protection", command.options.face_protection, protected_faces,
-             "faces that go through the front");
-  add_choice(verb, "--lattice", command.options.lattice, "crystal lattice whose points fill the inside");
-  add_choice(verb, "--protection", command.options.protection, "where missing segments are split");
-  add_choice(verb, "--locator", command.options.locator,
-             "search structure for the vertices near a face and the faces near an edge");
-  add_choice(verb, "--delaunay", command.options.delaunay,
-             "method of Delaunay tetrahedralization; all give the same result");
-  add_choice(verb, "--visibility", command.options.visibility,
-             "how the front finds out whether a vertex can be seen from a face");
-  add_choice(verb, "--surface", command.surface, "surface of the mesh");
-  verb.add_option("--sharp-angle", command.sharp_angle,
-                  "remeshing keeps edges between facets whose normals differ by more than this, in degrees")
-      ->check(number_between(1, 179))
-      ->capture_default_str();
-  add_threads(verb, command.options.threads);
+  for (const baselines::MeshOption& option : baselines::mesh_options()) add_mesh_option(verb, option, command.options);
   verb.get_option("--threads")->default_str("all cores; 1 for a file up to 100 kB with --lattice none");
-}
-
-void add_improvement(CLI::App& verb, ImproveOptions& options) {
-  add_choice(verb, "--improve", options.improvement, improve::names_of(Improvement{}),
-             "how the worst tetrahedra are improved; default with --lattice none: none");
-  add_choice(verb, "--objective", options.objective, "quality measure to improve");
-  add_choice(verb, "--boundary", options.boundary, "whether improvement may move boundary vertices");
-  add_choice(verb, "--steiner", options.steiner, "what happens to the vertices that split segments");
-  verb.add_option("--target-dihedral", options.target_dihedral,
-                  "improve until all dihedral angles are between this and 180 minus this, in degrees")
-      ->check(number_between(0, 60))
-      ->capture_default_str();
-  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron has a greater r; with --objective r")
-      ->check(number_between(1, 1e6))
-      ->capture_default_str();
-  verb.add_option("--improve-time", options.time, "stop improvement after this many seconds; 0: no limit")
-      ->check(non_negative_number())
-      ->capture_default_str();
-}
-
-void add_numbers(CLI::App& verb, MeshOptions& options) {
-  verb.add_option("--edge-length", options.edge_length,
-                  "target edge length in units of the input; default: that of the surface,\n"
-                  "or with --surface refine a fortieth of the diagonal of the bounding box")
-      ->check(positive_number());
-  verb.add_option("--grading", options.grading,
-                  "growth of the edge length per unit of distance from the surface; 0: uniform")
-      ->check(non_negative_number())
-      ->capture_default_str();
-  verb.add_option("--sizes", options.background.name,
-                  "file with a size function for the inside: .sol beside its .mesh, .mtr beside its .node or .poly");
-  verb.add_option("--sphere-factor", options.sphere_factor,
-                  "keep interior points out of the smallest spheres of surface triangles, with radii times this factor")
-      ->check(non_negative_number())
-      ->capture_default_str();
-  verb.add_option("--clearance", options.clearance,
-                  "least distance of interior points from the surface, in edge lengths there")
-      ->check(non_negative_number())
-      ->capture_default_str();
-  verb.add_option("--radius-edge", options.radius_edge,
-                  "--lattice refinement: largest circumradius of a tetrahedron over its shortest edge")
-      ->check(number_between(1, 100))
-      ->capture_default_str();
-  verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size of the paper's uniform grids")
-      ->check(number_between(0.1, 100))
-      ->capture_default_str();
-  verb.add_option(
-          "--flatness", options.flatness,
-          "tolerance for triangles in one plane to be one facet, as a fraction of the bounding box; the default is "
-          "larger for coordinates rounded to single precision")
-      ->check(non_negative_number())
-      ->capture_default_str();
-}
-
-void add_options(CLI::App& verb, MeshCommand& command) {
-  add_files(verb, command);
-  add_strategies(verb, command);
-  add_improvement(verb, command.options.improve);
-  add_numbers(verb, command.options);
 }
 
 baselines::NamedOptions given_options(const CLI::App& verb) {

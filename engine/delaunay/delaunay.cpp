@@ -154,6 +154,13 @@ std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, s
   }
 }
 
+std::vector<Point3> points_of(const Delaunay& d) {
+  std::vector<Point3> points;
+  points.reserve(d.vertices.size());
+  for (const DelaunayVertex& v : d.vertices) points.push_back(v.point);
+  return points;
+}
+
 // If ab is an edge, it is one of the cell toward b.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t cell = cell_toward(d, a, d.point(b), b);

@@ -184,6 +184,9 @@ void walk_around_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::
   } while (here != first);
 }
 
+/// The points of the vertices.
+std::vector<Point3> points_of(const Delaunay& d);
+
 /// A cell at the vertex a in which the straight line from a to p begins; p is in the convex hull.
 ///
 /// \param b  the vertex at p, if there is one: any cell at a that has it will do

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/facets/facet_mesh.h"
+#include "engine/plc/plc.h"
+
+namespace ccdt::front {
+
+/// `find_delaunay_faces` for the triangles of facets, most of which the check of the input has found already
+/// (`Plc::faces`).
+std::vector<std::uint32_t> find_facet_faces(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                            const delaunay::Delaunay& delaunay);
+
+}  // namespace ccdt::front

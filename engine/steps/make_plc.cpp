@@ -1,0 +1,69 @@
+#include "engine/steps/make_plc.h"
+
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/base/errors.h"
+#include "engine/front/find_delaunay_faces.h"
+#include "engine/plc/build_plc.h"
+#include "engine/refine/refine_plc.h"
+
+namespace ccdt::steps {
+namespace {
+
+/// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
+/// tetrahedralization that grows by one vertex at a time, so this one is made by insertion whatever the method is. With
+/// another method, it serves only protection.
+std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3> points, Run& run) {
+  const bool stays = run.options.delaunay != DelaunayMethod::wrap;
+  return run.measured(stays ? Stage::delaunay : Stage::protect, [&]() -> std::optional<delaunay::Delaunay> {
+    try {
+      return delaunay::build_delaunay(points, run.progress);
+    } catch (const MeshError&) {
+      return {};
+    }
+  });
+}
+
+/// Gives the PLC the vertices of refinement.
+///
+/// \return  all points: those of the PLC, then those on segments
+std::vector<Point3> refine_surface(TetrahedralizedPlc& result, Run& run) {
+  const std::size_t vertices_before = result.plc.vertices.size();
+  const refine::RefineOptions options{.edge_length = run.options.edge_length / result.plc.grid.unit,
+                                      .grading = run.options.grading,
+                                      .most_tetrahedra = run.options.thin_tetrahedra};
+  refine::RefinedPlc refined =
+      run.measured(Stage::refine, [&] { return refine::refine_plc(result.plc, options, run.progress); });
+  result.plc = std::move(refined.plc);
+  result.chains = std::move(refined.chains);
+  run.counts.refined_in_facets = result.plc.vertices.size() - vertices_before;
+  run.counts.refined_on_segments = refined.on_segments.size();
+  std::vector<Point3> points = result.plc.vertices;
+  points.insert(points.end(), refined.on_segments.begin(), refined.on_segments.end());
+  return points;
+}
+
+}  // namespace
+
+TetrahedralizedPlc make_plc(const InputPlc& input, Run& run) {
+  const plc::PlcOptions flat{run.options.flatness};
+  const bool refines = run.options.surface == SurfaceRule::refine;
+  plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
+  // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
+  std::optional<delaunay::Delaunay> delaunay;
+  if (!refines) delaunay = tetrahedralize_vertices(gathered.plc.vertices, run);
+  static_assert(plc::no_face == delaunay::no_neighbor);
+  TetrahedralizedPlc result = run.measured(Stage::plc, [&]() -> TetrahedralizedPlc {
+    if (delaunay) gathered.triangles.faces = front::find_delaunay_faces(gathered.triangles.corners, *delaunay);
+    return {plc::check_plc(input, std::move(gathered), flat, run.progress)};
+  });
+  if (refines) delaunay = tetrahedralize_vertices(refine_surface(result, run), run);
+  if (!delaunay) delaunay::refuse_flat_points();
+  result.delaunay = *std::move(delaunay);
+  return result;
+}
+
+}  // namespace ccdt::steps

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "engine/delaunay/delaunay.h"
+#include "engine/plc/input.h"
+#include "engine/plc/plc.h"
+#include "engine/protection/segment_chains.h"
+#include "engine/steps/run.h"
+
+namespace ccdt::steps {
+
+/// A valid PLC, and the Delaunay tetrahedralization of its vertices and those on its segments.
+struct TetrahedralizedPlc {
+  plc::Plc plc;
+  protection::SegmentChains chains = {};  ///< with the vertices of refinement; see `protection::unprotected`
+  delaunay::Delaunay delaunay = {};
+};
+
+/// Puts an input on the grid, checks it, and refines its surface if that is asked for.
+///
+/// \throw InputError  the input is not a valid PLC
+TetrahedralizedPlc make_plc(const InputPlc& input, Run& run);
+
+}  // namespace ccdt::steps

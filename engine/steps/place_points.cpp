@@ -1,0 +1,77 @@
+#include "engine/steps/place_points.h"
+
+#include <utility>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/base/raw_vector.h"
+#include "engine/cores/lattice_core.h"
+#include "engine/lattice/place_circumcenters.h"
+#include "engine/protection/make_room.h"
+
+namespace ccdt::steps {
+namespace {
+
+BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
+  for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
+  for (double& size : background.sizes) size /= grid.unit;
+  return background;
+}
+
+/// The points of the lattice, or of Delaunay refinement.
+lattice::LatticePoints place_any(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
+                                 const facets::FacetMesh& facets, const MeshOptions& options,
+                                 const Progress& progress) {
+  RawVector<lattice::SurfaceTriangle> triangles(facets.triangles.size());
+  parallel_for(triangles.size(), 4096, [&](std::size_t i) {
+    const plc::Facet& facet = plc.facets[facets.facet[i]];
+    triangles[i] = {facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside};
+  });
+  const std::vector<std::array<VertexId, 2>> subsegments = surface.chains.pieces();
+  const BackgroundSizes background = in_grid_units(options.background, plc.grid);
+  const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
+                                        options.grading,   options.sphere_factor,
+                                        options.clearance, options.radius_edge,
+                                        &background};
+  const std::vector<Point3> vertices = points_of(surface.delaunay);
+  const lattice::DomainSurface domain{vertices, triangles, subsegments};
+  if (options.lattice == Lattice::refinement)
+    return lattice::place_circumcenters(domain, surface.delaunay, lattice, progress);
+  return lattice::place_lattice_points(domain, lattice, progress);
+}
+
+}  // namespace
+
+lattice::LatticePoints place_points(const plc::Plc& plc, const facets::FacetMesh& facets,
+                                    protection::ProtectedDelaunay& surface, Run& run) {
+  const MeshOptions& options = run.options;
+  if (options.lattice == Lattice::none) return {};
+  return run.measured(Stage::lattice, [&] {
+    lattice::LatticePoints lattice = place_any(plc, surface, facets, options, run.progress);
+    run.counts.dropped_interior_vertices = lattice.points.size();
+    const auto avoided =
+        options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
+    keep_only(protection::make_room(lattice.points, plc, options.protection, surface, avoided, run.progress), lattice);
+    run.counts.dropped_interior_vertices -= lattice.points.size();
+    return lattice;
+  });
+}
+
+delaunay::Delaunay add_points(lattice::LatticePoints lattice, delaunay::Delaunay d, Run& run) {
+  const MeshOptions& options = run.options;
+  return run.measured(Stage::delaunay, [&] {
+    if (options.delaunay == DelaunayMethod::wrap) {
+      append_vertices(d, lattice.points, lattice.later_rounds);
+      return delaunay::wrap_delaunay(std::move(d.vertices), options.grid_scale, run.progress);
+    }
+    const bool is_lattice = options.lattice != Lattice::refinement;
+    if (is_lattice && options.delaunay == DelaunayMethod::core && lattice.share_in_one_level >= options.least_core)
+      run.counts.core_tetrahedra = cores::insert_points(lattice, d, run.progress);
+    else
+      insert_points(d, lattice.points, lattice.later_rounds, run.progress);
+    const lattice::LatticePoints freed = std::move(lattice);
+    return std::move(d);
+  });
+}
+
+}  // namespace ccdt::steps

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "engine/base/progress.h"
+#include "engine/base/stage_scope.h"
+#include "engine/mesh_options.h"
+
+namespace ccdt::steps {
+
+/// What the steps of a run share.
+struct Run {
+  MeshOptions options;
+  const Progress& progress;
+  StageCosts costs = {};
+  MeshCounts counts = {};
+
+  /// Runs a part of a step; its costs are those of the stage.
+  template <class Part>
+  auto measured(Stage stage, const Part& part) {
+    const StageScope scope(costs[stage]);
+    return part();
+  }
+};
+
+}  // namespace ccdt::steps
