@@ -6,7 +6,6 @@
 #include <string_view>
 
 #include "engine/base/digits.h"
-#include "engine/surface/remesh_surface.h"
 
 namespace ccdt::baselines {
 namespace {
@@ -94,11 +93,11 @@ const NamedOptions& usual_options() {
                         {"objective", text_of(o.improve.objective)},
                         {"protection", text_of(o.protection)},
                         {"radius-edge", digits(o.radius_edge)},
-                        {"sharp-angle", digits(surface::RemeshOptions().sharp_angle)},
+                        {"sharp-angle", digits(o.sharp_angle)},
                         {"sizes", ""},
                         {"sphere-factor", digits(o.sphere_factor)},
                         {"steiner", text_of(o.improve.steiner)},
-                        {"surface", "keep"},
+                        {"surface", text_of(o.surface)},
                         {"target-dihedral", digits(o.improve.target_dihedral)},
                         {"target-r", digits(o.improve.target_r)},
                         {"threads", "1"},

@@ -21,13 +21,12 @@
 #include "engine/lattice/place_lattice_points.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/collect_tetrahedra.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
-#include "engine/plc/edge_length_bounds.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/protection/make_room.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/refine/refine_plc.h"
+#include "engine/surface/prepare_surface.h"
 
 namespace ccdt {
 namespace {
@@ -206,7 +205,8 @@ CheckedInput check_input(const InputPlc& input, Run& run) {
   plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
   CheckedInput checked;
   // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
-  if (!run.options.refine_surface) checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, run);
+  if (run.options.surface != SurfaceRule::refine)
+    checked.delaunay = tetrahedralize_vertices(gathered.plc.vertices, run);
   static_assert(plc::no_face == delaunay::no_neighbor);
   if (checked.delaunay)
     gathered.triangles.faces = run.measured(
@@ -282,7 +282,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
   CheckedInput checked = check_input(input, run);
   t.plc = std::move(checked.plc);
   std::optional<delaunay::Delaunay>& delaunay = checked.delaunay;
-  if (run.options.refine_surface) delaunay = tetrahedralize_vertices(refine_surface(run, t), run);
+  if (run.options.surface == SurfaceRule::refine) delaunay = tetrahedralize_vertices(refine_surface(run, t), run);
   if (!delaunay) delaunay::refuse_flat_points();
   folds::SurfaceProtector protector(t.plc, *std::move(delaunay), std::move(t.chains),
                                     plc::tolerance_of(t.plc, run.options.flatness), run.options.protection);
@@ -305,14 +305,6 @@ Tetrahedralization tetrahedralize(const InputPlc& input, Run& run) {
   }
 }
 
-/// The target edge length, with the default of a refined surface. A length beyond the size of the input would only make
-/// the octree of the lattice too large.
-double edge_length_of(const MeshOptions& options, const InputPlc& input) {
-  const double longest = plc::longest_edge(input);
-  const double usual = options.refine_surface ? longest / 40 : 0;
-  return options.edge_length == 0 ? usual : std::min(options.edge_length, longest);
-}
-
 }  // namespace
 
 Improvement improvement_of(const MeshOptions& options) {
@@ -322,12 +314,11 @@ Improvement improvement_of(const MeshOptions& options) {
 namespace {
 
 MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  Run run{options, progress};
-  const auto triangulated = run.measured(Stage::plc, [&] { return plc::triangulate_bent_facets(input); });
-  const InputPlc& flat = triangulated ? *triangulated : input;
-  run.options.edge_length = edge_length_of(options, flat);
-  if (options.refine_surface) plc::check_edges_of_surface(flat, run.options.edge_length);
-  Tetrahedralization t = tetrahedralize(flat, run);
+  const surface::PreparedSurface surface = surface::prepare_surface(
+      input, options.surface, {options.edge_length, options.sharp_angle, options.flatness}, progress);
+  Run run{options, progress, surface.costs};
+  run.options.edge_length = surface.edge_length;
+  Tetrahedralization t = tetrahedralize(surface.changed ? *surface.changed : input, run);
 
   ImproveOptions improve = options.improve;
   improve.improvement = improvement_of(options);
@@ -351,6 +342,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   t.counts.vertices = t.mesh.vertices.size();
   t.counts.tetrahedra = t.mesh.tetrahedra.size();
   for (const StageCost& cost : run.costs.stages) run.costs.mesh_seconds += cost.seconds;
+  run.costs.mesh_seconds -= run.costs[Stage::remesh].seconds;
   return {std::move(t.mesh), std::move(t.counts), run.costs, t.plc.largest_rounding, t.plc.idle_holes.size()};
 }
 

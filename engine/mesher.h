@@ -17,6 +17,7 @@
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 #include "engine/protection/options.h"
+#include "engine/surface/options.h"
 
 namespace ccdt {
 
@@ -37,6 +38,7 @@ using plc::InputPlc;
 using plc::PolygonFacet;
 using protection::Protection;
 using sizes::BackgroundSizes;
+using surface::SurfaceRule;
 using tets::Objective;
 
 /// The strategies of the engine and their parameters.
@@ -50,10 +52,11 @@ struct MeshOptions {
   double least_core = 0.35;  ///< `core` inserts all points if a smaller share of the lattice than this is deep within
                              ///< one level, because searching for cores would then take longer; 0: always search
   double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
-  bool refine_surface = false;   ///< give facets and segments vertices for even triangles; see `refine::refine_plc`
-  double thin_tetrahedra = 2e6;  ///< at most about these are due to thin places of a refined surface
+  SurfaceRule surface = SurfaceRule::keep;
+  double sharp_angle = surface::usual_sharp_angle;  ///< see RemeshOptions
+  double thin_tetrahedra = 2e6;                     ///< at most about these are due to thin places of a refined surface
   double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it, or, if that
-                           ///< is refined, a fortieth of the diagonal of the bounding box
+                           ///< is refined, a fortieth of the diagonal of the bounding box. Remeshing needs one
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
   double flatness = usual_flatness;             ///< see PlcOptions
   double sphere_factor = 1;                     ///< see LatticeOptions
@@ -103,13 +106,14 @@ unsigned number_of_threads(const MeshOptions& options);
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
 /// \param input       facets in any units, which also apply to lengths and to the mesh; polygons that are not planar
-///                    are triangulated so that they bend least
+///                    are triangulated so that they bend least. With `SurfaceRule::remesh`, the mesh bounds the surface
+///                    that `surface::remesh_surface` makes
 /// \param options     strategies, sizes and targets of improvement
 /// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
 ///                    released
-/// \throw InputError  the input is not a valid PLC
+/// \throw InputError  the input is not a valid PLC, or remeshing has no edge length
 /// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh too many vertices
-/// \throw MeshError   no valid mesh was found
+/// \throw MeshError   no valid mesh or new surface was found
 /// \throw ...         any exception of `progress`
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});
 

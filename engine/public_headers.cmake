@@ -27,6 +27,7 @@ set(public_headers
   repair/find_faults.h
   repair/repair_input.h
   sizes/background_sizes.h
+  surface/options.h
   surface/remesh_surface.h
   tets/objective.h
 )

@@ -9,14 +9,11 @@ int main(int argc, char** argv) try {
     return 2;
   }
   // The file extensions determine the formats. Lengths are in the units of the file.
-  const double edge_length = 0.25;
-  const ccdt::InputPlc input = ccdt::read_plc(argv[1]);
-  const ccdt::InputPlc surface = ccdt::remesh_surface(input, {.edge_length = edge_length});
-
   ccdt::MeshOptions options;
-  options.edge_length = edge_length;
+  options.edge_length = 0.25;
+  options.surface = ccdt::SurfaceRule::remesh;
   options.improve.target_dihedral = 25;  // degrees; worse tetrahedra are improved
-  const ccdt::MeshResult result = ccdt::mesh_plc(surface, options);
+  const ccdt::MeshResult result = ccdt::mesh_plc(ccdt::read_plc(argv[1]), options);
 
   ccdt::write_tet_mesh(result.mesh, argv[2]);
   double total = 0;

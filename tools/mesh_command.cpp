@@ -16,15 +16,13 @@
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
-#include "engine/base/stage_scope.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/edge_length_bounds.h"
-#include "engine/surface/remesh_surface.h"
+#include "engine/surface/prepare_surface.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
@@ -36,35 +34,22 @@
 namespace ccdt::tools {
 namespace {
 
-/// Which triangles bound the mesh.
-enum class Surface { keep, remesh, refine };
-
-constexpr auto names_of(Surface) {
-  return std::to_array<NamedValue<Surface>>(
-      {{Surface::keep, "keep", "keep the triangles of the input"},
-       {Surface::remesh, "remesh", "make new triangles of --edge-length; sharp edges stay"},
-       {Surface::refine, "refine",
-        "make new triangles of --edge-length on the same flat facets and straight segments"}});
-}
-
 struct MeshCommand {
   std::string input, output, report;
   std::string surface_output;  ///< file for the remeshed surface
   std::string mesher = "ccdt";
   MeshOptions options;
-  Surface surface = Surface::keep;
-  double sharp_angle = surface::RemeshOptions().sharp_angle;
   baselines::Strategies strategies = baselines::Strategies::usual;
   baselines::NamedOptions given;  ///< the options on the command line
 };
 
 void check_surface_options(const MeshCommand& command) {
-  const bool remesh = command.surface == Surface::remesh;
+  const bool remesh = command.options.surface == SurfaceRule::remesh;
   if (remesh && command.options.edge_length == 0)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
   if (!remesh && !command.surface_output.empty())
     throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh");
-  if (command.surface == Surface::refine && command.mesher != "ccdt")
+  if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
     throw CLI::ValidationError("--surface refine",
                                "only ccdt refines a surface; use --surface remesh for other meshers");
 }
@@ -108,29 +93,13 @@ std::string note_of(const InputPlc::Bent& bent) {
          deviation + ": triangulated so that they bend least";
 }
 
-/// A length that is too long or too short is probably in the wrong unit. The diagonal of the bounding box replaces a
-/// longer one.
-///
-/// \throw LimitError  the mesh would have too many vertices; ccdt itself finds that out where only the inside is filled
-void check_edge_length(const MeshCommand& command, const InputPlc& input, MeshOptions& options,
-                       bench::RunRecord& record) {
-  if (options.edge_length == 0) return;
-  const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
-  if (command.surface != Surface::keep || others_fill) plc::check_edges_of_surface(input, options.edge_length);
-  const double longest = plc::longest_edge(input);
-  if (options.edge_length <= longest) return;
-  record.notes.push_back("--edge-length " + digits(options.edge_length) +
-                         " is longer than the whole part: " + bench::rounded(longest) +
-                         ", the diagonal of its bounding box, was used instead; check the unit");
-  options.edge_length = longest;
-}
-
 /// Another mesher leaves out what only ccdt can do. Its user should know.
 std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
   if (chosen.name == "ccdt") return {};
   std::vector<std::string> used = {"surface", "sizes"};  // they have messages of their own
-  if (command.surface == Surface::remesh) used.insert(used.end(), {"edge-length", "flatness", "sharp-angle"});
+  if (command.options.surface == SurfaceRule::remesh)
+    used.insert(used.end(), {"edge-length", "flatness", "sharp-angle"});
   std::vector<std::string> notes;
   for (const auto& [name, value] : command.given) {
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
@@ -149,26 +118,41 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
-  if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
-  if (command.surface != Surface::keep) record.set_option("surface", std::string(name_of(command.surface)));
-  if (command.surface == Surface::remesh) {
-    record.set_option("sharp_angle", command.sharp_angle);
-  }
+  if (command.options.surface == SurfaceRule::remesh) record.set_option("sharp_angle", command.options.sharp_angle);
   return record;
 }
 
-/// The surface with edges of the wanted length; any mesher may use it.
-InputPlc remeshed(const MeshCommand& command, const InputPlc& input, double edge_length, const Progress& progress,
+/// The surface that the mesher gets. What had to be changed is noted: a length that is too long or too short is
+/// probably in the wrong unit.
+///
+/// \param options     get the edge length and the rule that remain for the mesher
+/// \throw LimitError  the mesh would have too many vertices; ccdt itself finds that out where only the inside is filled
+InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& options, const Progress& progress,
                   bench::RunRecord& record) {
-  const StageScope scope(record.costs[Stage::remesh]);
-  InputPlc surface = surface::remesh_surface(
-      input, {.edge_length = edge_length, .sharp_angle = command.sharp_angle, .flatness = command.options.flatness},
-      progress);
-  record.notes.push_back("the surface was remeshed from " + bench::with_separators(input.facet_count()) + " to " +
-                         bench::with_separators(surface.facet_count()) + " facets");
-  if (!command.surface_output.empty()) io::write_plc(surface, command.surface_output);
-  return surface;
+  surface::PreparedSurface surface = surface::prepare_surface(
+      input, options.surface, {options.edge_length, options.sharp_angle, options.flatness}, progress);
+  record.read_seconds += surface.costs[Stage::plc].seconds;
+  record.costs[Stage::remesh] = surface.costs[Stage::remesh];
+  record.input.facets = surface.facets;
+  if (surface.changed) input = *std::move(surface.changed);
+  record.input.nonplanar_facets = input.bent.count;
+  record.input.largest_deviation = input.bent.largest_deviation;
+  if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
+  if (options.edge_length > surface.edge_length)
+    record.notes.push_back("--edge-length " + digits(options.edge_length) +
+                           " is longer than the whole part: " + bench::rounded(surface.edge_length) +
+                           ", the diagonal of its bounding box, was used instead; check the unit");
+  options.edge_length = surface.edge_length;
+  if (options.surface == SurfaceRule::remesh) {
+    record.notes.push_back("the surface was remeshed from " + bench::with_separators(surface.facets) + " to " +
+                           bench::with_separators(input.facet_count()) + " facets");
+    if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
+    options.surface = SurfaceRule::keep;
+  }
+  const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
+  if (others_fill && options.edge_length > 0) plc::check_edges_of_surface(input, options.edge_length);
+  return input;
 }
 
 std::string words_of(const bench::SurfaceLimit& limit) {
@@ -201,7 +185,7 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   if (!options.background.empty() && record.mesher.name != "ccdt")
     record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
   record.quality = bench::measure_quality(result.mesh);
-  if (command.surface == Surface::keep && improvement_of(options) != Improvement::none &&
+  if (command.options.surface == SurfaceRule::keep && improvement_of(options) != Improvement::none &&
       record.quality.r.max > bench::SurfaceLimit::bad_r)
     if (const bench::SurfaceLimit limit = bench::find_surface_limit(result.mesh); limit.limits_quality())
       record.notes.push_back(words_of(limit));
@@ -230,21 +214,18 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   double read_seconds = 0;
   InputPlc input = [&] {
     const Stopwatch watch(read_seconds);
-    InputPlc given = io::read_plc(command.input);
-    return plc::triangulate_bent_facets(given).value_or(std::move(given));
+    return io::read_plc(command.input);
   }();
   record = begin_record(command, input);
+  record.read_seconds = read_seconds;
   if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
-  check_edge_length(command, input, options, record);
-  if (command.surface == Surface::remesh) input = remeshed(command, input, options.edge_length, progress, record);
-  options.refine_surface = command.surface == Surface::refine;
+  input = prepared(command, std::move(input), options, progress, record);
   if (!options.background.name.empty()) {
-    const Stopwatch watch(read_seconds);
+    const Stopwatch watch(record.read_seconds);
     options.background = io::read_sizes(options.background.name);
     check_are_different(options.background.mesh_name, command.output);
   }
-  record.read_seconds = read_seconds;
 
   record.mesher_settings = baselines::settings_of(chosen, input, options);
   leave_provisional_record(command, record);
@@ -273,7 +254,7 @@ void record_failure(const MeshCommand& command, bench::RunRecord& record, const 
 bool is_small(const MeshCommand& command) {
   constexpr std::uintmax_t small_file = 100'000;  // bytes
   std::error_code unreadable;                     // is reported where the file is read
-  return command.options.lattice == Lattice::none && command.surface == Surface::keep &&
+  return command.options.lattice == Lattice::none && command.options.surface == SurfaceRule::keep &&
          std::filesystem::file_size(command.input, unreadable) <= small_file && !unreadable;
 }
 
@@ -348,8 +329,8 @@ void add_strategies(CLI::App& verb, MeshCommand& command) {
              "method of Delaunay tetrahedralization; all give the same result");
   add_choice(verb, "--visibility", command.options.visibility,
              "how the front finds out whether a vertex can be seen from a face");
-  add_choice(verb, "--surface", command.surface, "surface of the mesh");
-  verb.add_option("--sharp-angle", command.sharp_angle,
+  add_choice(verb, "--surface", command.options.surface, "surface of the mesh");
+  verb.add_option("--sharp-angle", command.options.sharp_angle,
                   "remeshing keeps edges between facets whose normals differ by more than this, in degrees")
       ->check(number_between(1, 179))
       ->capture_default_str();

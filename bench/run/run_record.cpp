@@ -230,8 +230,6 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
   record.input.vertices = input.vertices.size();
   record.input.facets = input.facet_count();
   record.input.segments = input.segments.size();
-  record.input.nonplanar_facets = input.bent.count;
-  record.input.largest_deviation = input.bent.largest_deviation;
   record.options = {{"face_protection", options.face_protection},
                     {"lattice", std::string(name_of(options.lattice))},
                     {"locator", std::string(name_of(options.locator))},
@@ -245,7 +243,7 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
                     {"boundary", std::string(name_of(options.improve.boundary))},
                     {"steiner", std::string(name_of(options.improve.steiner))},
                     {"improve_time", options.improve.time},
-                    {"surface", "keep"},
+                    {"surface", std::string(name_of(options.surface))},
                     {"edge_length", options.edge_length},
                     {"grading", options.grading},
                     {"grid_scale", options.grid_scale},

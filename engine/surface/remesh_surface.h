@@ -1,21 +1,10 @@
 #pragma once
 
-#include "engine/base/flatness.h"
 #include "engine/base/progress.h"
 #include "engine/plc/input.h"
+#include "engine/surface/options.h"
 
 namespace ccdt::surface {
-
-struct RemeshOptions {
-  double edge_length = 0;  ///< target, in the units of the input; must be positive
-
-  /// In degrees: an edge between two facets whose normals differ by more is kept as an edge. At 30 a circle of twelve
-  /// edges or more counts as round, which is as coarse as CAD programs draw one, and a chamfer of 45 degrees is still
-  /// kept.
-  double sharp_angle = 30;
-
-  double flatness = usual_flatness;  ///< see PlcOptions
-};
 
 /// Replaces the triangles of a surface by nearly equilateral ones with edges of nearly one length: in rounds of edge
 /// splits, collapses, flips and tangential relaxation, each projected back to the original surface (Botsch and Kobbelt,

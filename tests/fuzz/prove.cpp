@@ -32,8 +32,9 @@ Progress limited_to(double seconds) {
 std::string name(const MeshOptions& o) {
   return "lattice " + std::string(name_of(o.lattice)) + ", protection " + std::string(name_of(o.protection)) +
          ", locator " + std::string(name_of(o.locator)) + ", delaunay " + std::string(name_of(o.delaunay)) +
-         (o.face_protection ? "" : ", without face protection") + (o.refine_surface ? ", refined" : "") + ", improve " +
-         std::string(name_of(improvement_of(o))) + ", Steiner vertices: " + std::string(name_of(o.improve.steiner));
+         (o.face_protection ? "" : ", without face protection") + ", surface " + std::string(name_of(o.surface)) +
+         ", improve " + std::string(name_of(improvement_of(o))) +
+         ", Steiner vertices: " + std::string(name_of(o.improve.steiner));
 }
 
 /// The tetrahedra as sorted lists of sorted vertices.
@@ -108,9 +109,9 @@ class Prover {
     }
     options.lattice = Lattice::none;
     if (options_.refined) {
-      options.refine_surface = true;
+      options.surface = SurfaceRule::refine;
       verify(mesh(options, options_.seconds).mesh);
-      options.refine_surface = false;
+      options.surface = SurfaceRule::keep;
     }
     options.protection = Protection::midpoint;
     if (const auto result = mesh_if_it_ends(options)) compare(options, result->mesh);

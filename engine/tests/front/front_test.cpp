@@ -151,7 +151,7 @@ plc::InputPlc stack_on_a_beam() {
 TEST(Front, LooksAtFewFacesInAStackOfThinPlates) {
   MeshOptions options;
   options.lattice = Lattice::none;
-  options.refine_surface = true;
+  options.surface = SurfaceRule::refine;
   const MeshResult result = mesh_plc(stack_on_a_beam(), options);
   EXPECT_GT(result.counts.front_tetrahedra, 500u);
   EXPECT_LT(result.costs[Stage::front].work.visibility_tests, 25 * result.counts.front_tetrahedra);

@@ -95,10 +95,10 @@ InputPlc solid_with_a_facet_that_touches_an_edge() {
 
 TEST(FlatTetrahedra, StayBetweenAFacetAndAnEdgeBesideIt) {
   const InputPlc input = solid_with_a_facet_that_touches_an_edge();
-  for (const bool refine : {false, true}) {
+  for (const SurfaceRule rule : {SurfaceRule::keep, SurfaceRule::refine}) {
     MeshOptions options;
     options.lattice = Lattice::none;
-    options.refine_surface = refine;
+    options.surface = rule;
     expect_right(input, mesh_plc(input, options).mesh);
   }
 }

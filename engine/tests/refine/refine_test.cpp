@@ -116,7 +116,7 @@ double least_angle_of_faces(const TetMesh& mesh) {
 
 MeshOptions refining(double edge_length) {
   MeshOptions options;
-  options.refine_surface = true;
+  options.surface = SurfaceRule::refine;
   options.edge_length = edge_length;
   options.improve.steiner = SteinerRule::keep;
   return options;

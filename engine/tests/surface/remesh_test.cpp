@@ -17,6 +17,7 @@
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
+#include "engine/surface/prepare_surface.h"
 #include "engine/surface/remesh_surface.h"
 #include "engine/tests/shared/mesh_test_solids.h"
 #include "engine/tests/shared/real_parts.h"
@@ -359,6 +360,75 @@ TEST(Remeshing, RejectsOptionsOutOfRange) {
   EXPECT_THROW(remeshed(unit_cube(), 0), InputError);
   EXPECT_THROW(remeshed(unit_cube(), -1), InputError);
   EXPECT_THROW(remeshed(unit_cube(), std::nan("")), InputError);
+}
+
+/// A cube of six polygons with one corner moved, so that three of them are bent.
+InputPlc bent_cube() {
+  InputPlc cube;
+  cube.vertices = plc_test::unit_cube().vertices;
+  cube.vertices.back() = {1.1, 1.2, 1.4};
+  for (const auto& corners : std::vector<std::vector<std::uint32_t>>{
+           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
+    PolygonFacet facet;
+    facet.polygons = {corners};
+    facet.number = static_cast<std::uint32_t>(cube.polygon_facets.size());
+    cube.polygon_facets.push_back(facet);
+  }
+  return cube;
+}
+
+TEST(SurfaceRule, RemeshMeshesTheRemeshedSurface) {
+  const InputPlc cube = plc_test::unit_cube();
+  MeshOptions options;
+  options.edge_length = 0.3;
+  const MeshResult expected = mesh_plc(remeshed(cube, 0.3), options);
+  options.surface = SurfaceRule::remesh;
+  const MeshResult result = mesh_plc(cube, options);
+  EXPECT_EQ(result.mesh.tetrahedra, expected.mesh.tetrahedra);
+  EXPECT_EQ(result.mesh.vertices, expected.mesh.vertices);
+  EXPECT_GT(result.costs[Stage::remesh].seconds, 0);
+  double seconds = 0;
+  for (const StageCost& cost : result.costs.stages) seconds += cost.seconds;
+  EXPECT_NEAR(result.costs.mesh_seconds, seconds - result.costs[Stage::remesh].seconds, 1e-9);
+}
+
+TEST(SurfaceRule, RemeshNeedsAnEdgeLengthThatIsPossible) {
+  MeshOptions options;
+  options.surface = SurfaceRule::remesh;
+  EXPECT_THROW(mesh_plc(plc_test::unit_cube(), options), InputError);
+  options.edge_length = 1e-9;
+  EXPECT_THROW(mesh_plc(plc_test::unit_cube(), options), LimitError);
+}
+
+TEST(SurfaceRule, RemeshUsesTheSharpAngle) {
+  MeshOptions options;
+  options.surface = SurfaceRule::remesh, options.edge_length = 0.4;
+  const InputPlc cube = plc_test::unit_cube();
+  const MeshResult with_edges = mesh_plc(cube, options);
+  options.sharp_angle = 170;
+  EXPECT_NE(with_edges.mesh.vertices, mesh_plc(cube, options).mesh.vertices);
+}
+
+TEST(PreparedSurface, HasTheBentPolygonsOfTheInputAndItsFacetsBeforeRemeshing) {
+  for (const SurfaceRule rule : {SurfaceRule::keep, SurfaceRule::remesh, SurfaceRule::refine}) {
+    const surface::PreparedSurface made = surface::prepare_surface(bent_cube(), rule, {.edge_length = 0.4});
+    ASSERT_TRUE(made.changed);
+    EXPECT_EQ(made.changed->bent.count, 3u);
+    EXPECT_EQ(made.facets, 9u);
+    EXPECT_EQ(made.changed->facet_count() > 9, rule == SurfaceRule::remesh);
+    EXPECT_EQ(made.edge_length, 0.4);
+  }
+}
+
+TEST(PreparedSurface, BoundsTheEdgeLengthByTheSizeOfTheInput) {
+  const InputPlc cube = plc_test::unit_cube();
+  const auto length = [&](SurfaceRule rule, double given) {
+    return surface::prepare_surface(cube, rule, {.edge_length = given}).edge_length;
+  };
+  EXPECT_NEAR(length(SurfaceRule::keep, 100), std::sqrt(3), 1e-12);
+  EXPECT_EQ(length(SurfaceRule::keep, 0), 0);
+  EXPECT_NEAR(length(SurfaceRule::refine, 0), std::sqrt(3) / 40, 1e-12);
+  EXPECT_FALSE(surface::prepare_surface(cube, SurfaceRule::keep, {}).changed);
 }
 
 TEST(RemeshedParts, MeshAtEveryEdgeLengthAndKeepTheirVolume) {

@@ -239,12 +239,12 @@ MeshOptions hard_to_improve() {
 
 TEST(Threads, MakeOneMeshOfARefinedSurface) {
   MeshOptions options;
-  options.refine_surface = true;
+  options.surface = SurfaceRule::refine;
   expect_one_mesh("bracket", models::make_solid("bracket", 10), options);
   options.lattice = Lattice::bcc;
   expect_one_mesh("cube", cube_with_slit(), options);
   options = hard_to_improve();
-  options.refine_surface = true;
+  options.surface = SurfaceRule::refine;
   expect_one_mesh("much improved", models::make_solid("bracket", 10), options);
 }
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+
+#include "engine/base/enum_names.h"
+#include "engine/base/flatness.h"
+
+namespace ccdt::surface {
+
+/// Which triangles bound the mesh.
+enum class SurfaceRule {
+  keep,
+  remesh,  ///< new triangles that follow the surface; see `remesh_surface`
+  refine   ///< facets and segments stay, and get vertices for even triangles; see `refine::refine_plc`
+};
+
+constexpr auto names_of(SurfaceRule) {
+  return std::to_array<NamedValue<SurfaceRule>>(
+      {{SurfaceRule::keep, "keep", "keep the triangles of the input"},
+       {SurfaceRule::remesh, "remesh", "make new triangles of --edge-length; sharp edges stay"},
+       {SurfaceRule::refine, "refine",
+        "make new triangles of --edge-length on the same flat facets and straight segments"}});
+}
+
+/// At 30 degrees a circle of twelve edges or more counts as round, which is as coarse as CAD programs draw one, and a
+/// chamfer of 45 degrees is still kept.
+inline constexpr double usual_sharp_angle = 30;
+
+struct RemeshOptions {
+  double edge_length = 0;  ///< target, in the units of the input; must be positive
+
+  /// In degrees: an edge between two facets whose normals differ by more is kept as an edge.
+  double sharp_angle = usual_sharp_angle;
+
+  double flatness = usual_flatness;  ///< see PlcOptions
+};
+
+}  // namespace ccdt::surface

@@ -1,0 +1,33 @@
+#include "engine/surface/prepare_surface.h"
+
+#include <algorithm>
+
+#include "engine/base/stage_scope.h"
+#include "engine/plc/bent_facets.h"
+#include "engine/plc/edge_length_bounds.h"
+#include "engine/surface/remesh_surface.h"
+
+namespace ccdt::surface {
+
+PreparedSurface prepare_surface(const plc::InputPlc& input, SurfaceRule rule, RemeshOptions options,
+                                const Progress& progress) {
+  PreparedSurface surface;
+  {
+    const StageScope scope(surface.costs[Stage::plc]);
+    surface.changed = plc::triangulate_bent_facets(input);
+  }
+  const plc::InputPlc& flat = surface.changed ? *surface.changed : input;
+  surface.facets = flat.facet_count();
+  const double longest = plc::longest_edge(flat);
+  if (options.edge_length == 0 && rule == SurfaceRule::refine) options.edge_length = longest / 40;
+  options.edge_length = std::min(options.edge_length, longest);
+  surface.edge_length = options.edge_length;
+  if (rule != SurfaceRule::keep && options.edge_length > 0) plc::check_edges_of_surface(flat, options.edge_length);
+  if (rule == SurfaceRule::remesh) {
+    const StageScope scope(surface.costs[Stage::remesh]);
+    surface.changed = remesh_surface(flat, options, progress);
+  }
+  return surface;
+}
+
+}  // namespace ccdt::surface
