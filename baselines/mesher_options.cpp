@@ -1,36 +1,16 @@
 #include "baselines/mesher_options.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <string_view>
 
+#include "baselines/option_table.h"
 #include "engine/base/digits.h"
 
 namespace ccdt::baselines {
 namespace {
 
 constexpr std::string_view value_none = "none";
-
-/// Options of surface remeshing, which happens before any mesher runs.
-constexpr auto options_of_surface = std::to_array<std::string_view>({"edge-length", "flatness", "sharp-angle"});
-/// Options of surface refinement.
-constexpr auto options_of_refinement = std::to_array<std::string_view>({"edge-length", "grading"});
-/// Options of interior points.
-constexpr auto options_of_lattice =
-    std::to_array<std::string_view>({"clearance", "edge-length", "grading", "radius-edge", "sizes", "sphere-factor"});
-/// Options of improvement.
-constexpr auto options_of_improvement =
-    std::to_array<std::string_view>({"boundary", "improve-time", "objective", "target-dihedral", "target-r"});
-template <class Names>
-bool is_among(const Names& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
-template <class Enum>
-std::string text_of(Enum value) {
-  return std::string(name_of(value));
-}
 
 /// Normalizes values: equal numbers become equal texts, names get small letters. Names of files stay as they are.
 std::string canonical(const std::string& name, std::string value) {
@@ -64,44 +44,26 @@ class Asked {
 
 bool matters(const OptionUse& use, const Asked& asked) {
   if (use.only_inside && asked.value("lattice") == value_none) return false;
-  if (use.name == "radius-edge" && asked.value("lattice") != name_of(Lattice::refinement)) return false;
-  if (is_among(options_of_improvement, use.name) && asked.value("improve") == value_none) return false;
-  return use.name != "target-r" || asked.value("objective") == name_of(Objective::r);
+  const MeshOption* const option = find_mesh_option(use.name);
+  return option == nullptr || std::ranges::all_of(option->needs, [&](const Need& need) {
+           return (asked.value(std::string(need.option)) == need.value) == need.is;
+         });
 }
 
 }  // namespace
 
 bool names_a_file(std::string_view option) {
-  return option == "sizes";
+  const MeshOption* const known = find_mesh_option(option);
+  return known != nullptr && std::holds_alternative<FileKind>(known->kind);
 }
 
 const NamedOptions& usual_options() {
   static const NamedOptions all = [] {
-    const MeshOptions o;
-    return NamedOptions{{"boundary", text_of(o.improve.boundary)},
-                        {"clearance", digits(o.clearance)},
-                        {"delaunay", text_of(o.delaunay)},
-                        {"edge-length", ""},
-                        {"face-protection", "on"},
-                        {"flatness", digits(o.flatness)},
-                        {"grading", digits(o.grading)},
-                        {"grid-scale", digits(o.grid_scale)},
-                        {"improve", text_of(improvement_of(o))},
-                        {"improve-time", digits(o.improve.time)},
-                        {"lattice", text_of(o.lattice)},
-                        {"locator", text_of(o.locator)},
-                        {"objective", text_of(o.improve.objective)},
-                        {"protection", text_of(o.protection)},
-                        {"radius-edge", digits(o.radius_edge)},
-                        {"sharp-angle", digits(o.sharp_angle)},
-                        {"sizes", ""},
-                        {"sphere-factor", digits(o.sphere_factor)},
-                        {"steiner", text_of(o.improve.steiner)},
-                        {"surface", text_of(o.surface)},
-                        {"target-dihedral", digits(o.improve.target_dihedral)},
-                        {"target-r", digits(o.improve.target_r)},
-                        {"threads", "1"},
-                        {"visibility", text_of(o.visibility)}};
+    NamedOptions usual;
+    MeshOptions defaults;
+    for (const MeshOption& option : mesh_options())
+      usual[std::string(option.name)] = option.usual ? *option.usual : text_of(recorded_value(option, defaults));
+    return usual;
   }();
   return all;
 }
@@ -109,11 +71,11 @@ const NamedOptions& usual_options() {
 NamedOptions options_of(Strategies strategies, const NamedOptions& given) {
   NamedOptions options;
   if (strategies == Strategies::paper)
-    options = {{"delaunay", text_of(DelaunayMethod::wrap)},
-               {"improve", text_of(Improvement::swap_smooth)},
-               {"locator", text_of(LocatorKind::grid)},
-               {"protection", text_of(Protection::midpoint)},
-               {"visibility", text_of(Visibility::faces)}};
+    options = {{"delaunay", "wrap"},
+               {"improve", "swap-smooth"},
+               {"locator", "grid"},
+               {"protection", "midpoint"},
+               {"visibility", "faces"}};
   const auto lattice = given.find("lattice");
   if (lattice != given.end() && lattice->second == value_none) options.erase("improve");
   for (const auto& [name, value] : given) options.erase(name);
@@ -131,9 +93,8 @@ NamedOptions with_strategies(NamedOptions options) {
 
 std::vector<OptionUse> options_of_engine() {
   std::vector<OptionUse> all;
-  for (const auto& [name, value] : usual_options())
-    if (name != "surface" && name != "sharp-angle")
-      all.push_back({.name = name, .only_inside = is_among(options_of_lattice, name)});
+  for (const MeshOption& option : mesh_options())
+    all.push_back({.name = std::string(option.name), .only_inside = option.of_inside});
   return all;
 }
 
@@ -152,13 +113,11 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
   NamedOptions effective;
   for (const auto& [name, value] : asked.options()) {
     const auto use = use_of(name);
-    const bool is_of_surface = (name == "surface" && (is_refined || surface != "refine")) ||
-                               (is_remeshed && is_among(options_of_surface, name)) ||
-                               (is_refined && is_among(options_of_refinement, name));
     const bool is_used = use != mesher.options.end() && matters(*use, asked);
-    const bool is_known = usual_options().contains(name);
-    if (is_known && !is_of_surface && !is_used) continue;
-    if (is_known && value == usual(name)) continue;
+    if (const MeshOption* const option = find_mesh_option(name)) {
+      const bool is_of_surface = (is_remeshed && option->of_remeshing) || (is_refined && option->of_refinement);
+      if ((!is_of_surface && !is_used) || value == usual(name)) continue;
+    }
     const bool is_any =
         is_used && use->only_none && value != value_none;  // all values except none have the same effect
     if (is_any && usual(name) != value_none) continue;

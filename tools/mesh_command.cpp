@@ -8,6 +8,7 @@
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
+#include "baselines/option_table.h"
 #include "baselines/stop.h"
 #include "bench/run/fingerprint.h"
 #include "bench/run/numbers.h"
@@ -97,14 +98,14 @@ std::string note_of(const InputPlc::Bent& bent) {
 std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
   if (chosen.name == "ccdt") return {};
-  std::vector<std::string> used = {"surface", "sizes"};  // they have messages of their own
-  if (command.options.surface == SurfaceRule::remesh)
-    used.insert(used.end(), {"edge-length", "flatness", "sharp-angle"});
+  const bool remesh = command.options.surface == SurfaceRule::remesh;
   std::vector<std::string> notes;
   for (const auto& [name, value] : command.given) {
+    const baselines::MeshOption* const option = baselines::find_mesh_option(name);
+    if (option == nullptr || name == "surface" || name == "sizes") continue;  // they have messages of their own
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
     if (use == chosen.options.end()) {
-      if (baselines::usual_options().contains(name) && std::ranges::find(used, name) == used.end())
+      if (!(remesh && option->of_remeshing))
         notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
     } else if (use->only_none && value != "none") {
       notes.push_back("--" + name + " was not used: " + chosen.name + " supports only 'none' and its own default");
@@ -119,7 +120,6 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   record.command = bench::command_line();
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
-  if (command.options.surface == SurfaceRule::remesh) record.set_option("sharp_angle", command.options.sharp_angle);
   return record;
 }
 
@@ -311,90 +311,14 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
 }
 
-void add_strategies(CLI::App& verb, MeshCommand& command) {
+void add_options(CLI::App& verb, MeshCommand& command) {
+  add_files(verb, command);
   verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
-
   add_choice(verb, "--strategies", command.strategies, "strategies that belong together; other options replace them");
-  constexpr auto protected_faces = std::to_array<NamedValue<bool>>(
-      {{true, "on", "only faces that are not Delaunay, found by a check"}, {false, "off", "all"}});
-  add_choice(verb, "--face-protection", command.options.face_protection, protected_faces,
-             "faces that go through the front");
-  add_choice(verb, "--lattice", command.options.lattice, "crystal lattice whose points fill the inside");
-  add_choice(verb, "--protection", command.options.protection, "where missing segments are split");
-  add_choice(verb, "--locator", command.options.locator,
-             "search structure for the vertices near a face and the faces near an edge");
-  add_choice(verb, "--delaunay", command.options.delaunay,
-             "method of Delaunay tetrahedralization; all give the same result");
-  add_choice(verb, "--visibility", command.options.visibility,
-             "how the front finds out whether a vertex can be seen from a face");
-  add_choice(verb, "--surface", command.options.surface, "surface of the mesh");
-  verb.add_option("--sharp-angle", command.options.sharp_angle,
-                  "remeshing keeps edges between facets whose normals differ by more than this, in degrees")
-      ->check(number_between(1, 179))
-      ->capture_default_str();
-  add_threads(verb, command.options.threads);
+  for (const baselines::MeshOption& option : baselines::mesh_options()) add_mesh_option(verb, option, command.options);
   verb.get_option("--threads")->default_str("all cores; 1 for a file up to 100 kB with --lattice none");
-}
-
-void add_improvement(CLI::App& verb, ImproveOptions& options) {
-  add_choice(verb, "--improve", options.improvement, improve::names_of(Improvement{}),
-             "how the worst tetrahedra are improved; default with --lattice none: none");
-  add_choice(verb, "--objective", options.objective, "quality measure to improve");
-  add_choice(verb, "--boundary", options.boundary, "whether improvement may move boundary vertices");
-  add_choice(verb, "--steiner", options.steiner, "what happens to the vertices that split segments");
-  verb.add_option("--target-dihedral", options.target_dihedral,
-                  "improve until all dihedral angles are between this and 180 minus this, in degrees")
-      ->check(number_between(0, 60))
-      ->capture_default_str();
-  verb.add_option("--target-r", options.target_r, "improve until no tetrahedron has a greater r; with --objective r")
-      ->check(number_between(1, 1e6))
-      ->capture_default_str();
-  verb.add_option("--improve-time", options.time, "stop improvement after this many seconds; 0: no limit")
-      ->check(non_negative_number())
-      ->capture_default_str();
-}
-
-void add_numbers(CLI::App& verb, MeshOptions& options) {
-  verb.add_option("--edge-length", options.edge_length,
-                  "target edge length in units of the input; default: that of the surface,\n"
-                  "or with --surface refine a fortieth of the diagonal of the bounding box")
-      ->check(positive_number());
-  verb.add_option("--grading", options.grading,
-                  "growth of the edge length per unit of distance from the surface; 0: uniform")
-      ->check(non_negative_number())
-      ->capture_default_str();
-  verb.add_option("--sizes", options.background.name,
-                  "file with a size function for the inside: .sol beside its .mesh, .mtr beside its .node or .poly");
-  verb.add_option("--sphere-factor", options.sphere_factor,
-                  "keep interior points out of the smallest spheres of surface triangles, with radii times this factor")
-      ->check(non_negative_number())
-      ->capture_default_str();
-  verb.add_option("--clearance", options.clearance,
-                  "least distance of interior points from the surface, in edge lengths there")
-      ->check(non_negative_number())
-      ->capture_default_str();
-  verb.add_option("--radius-edge", options.radius_edge,
-                  "--lattice refinement: largest circumradius of a tetrahedron over its shortest edge")
-      ->check(number_between(1, 100))
-      ->capture_default_str();
-  verb.add_option("--grid-scale", options.grid_scale, "factor of the cell size of the paper's uniform grids")
-      ->check(number_between(0.1, 100))
-      ->capture_default_str();
-  verb.add_option(
-          "--flatness", options.flatness,
-          "tolerance for triangles in one plane to be one facet, as a fraction of the bounding box; the default is "
-          "larger for coordinates rounded to single precision")
-      ->check(non_negative_number())
-      ->capture_default_str();
-}
-
-void add_options(CLI::App& verb, MeshCommand& command) {
-  add_files(verb, command);
-  add_strategies(verb, command);
-  add_improvement(verb, command.options.improve);
-  add_numbers(verb, command.options);
 }
 
 baselines::NamedOptions given_options(const CLI::App& verb) {

@@ -32,6 +32,33 @@ std::string validator_name(const std::vector<std::string>& choices) {
   return name;
 }
 
+CLI::Validator within_bounds_of(const baselines::NumberKind& number) {
+  if (std::isfinite(number.most)) return number_between(number.least, number.most);
+  return number.excludes_least ? positive_number() : non_negative_number();
+}
+
+/// Adds an option of a kind.
+struct OptionAdder {
+  CLI::App& verb;
+  const baselines::MeshOption& option;
+  MeshOptions& options;
+  std::string name = "--" + std::string(option.name), what = std::string(option.what);
+
+  void operator()(const baselines::ChoiceKind& kind) const {
+    add_choice(
+        verb, name, kind.names, [set = kind.set, &options = options](const std::string& value) { set(options, value); },
+        kind.get(options), what);
+  }
+  void operator()(const baselines::NumberKind& kind) const {
+    CLI::Option* const added = verb.add_option(name, kind.member(options), what)->check(within_bounds_of(kind));
+    if (!option.usual) added->capture_default_str();
+  }
+  void operator()(const baselines::CountKind& kind) const {
+    verb.add_option(name, kind.member(options), what)->check(whole_number(kind.least, kind.most));
+  }
+  void operator()(const baselines::FileKind& kind) const { verb.add_option(name, kind.member(options), what); }
+};
+
 }  // namespace
 
 CLI::Validator positive_number() {
@@ -97,9 +124,27 @@ CLI::Validator known_mesher() {
       "", validator_name(names));
 }
 
+void add_choice(CLI::App& verb, const std::string& option, const std::vector<baselines::ChoiceKind::Name>& names,
+                std::function<void(const std::string&)> set, std::string_view standard, std::string what) {
+  std::vector<std::string> words;
+  for (const auto& [name, meaning] : names) {
+    words.emplace_back(name);
+    what += "\n  " + words.back() + ": " + std::string(meaning);
+  }
+  verb.add_option_function<std::string>(option, std::move(set), what)
+      ->transform(one_of(words, true))
+      ->default_str(std::string(standard));
+}
+
+void add_mesh_option(CLI::App& verb, const baselines::MeshOption& option, MeshOptions& options) {
+  std::visit(OptionAdder{verb, option, options}, option.kind);
+}
+
 void add_threads(CLI::App& verb, unsigned& threads) {
-  verb.add_option("--threads", threads, "largest number of threads; the result does not depend on it")
-      ->check(whole_number(1, 1024))  // starting more takes longer than meshing
+  const baselines::MeshOption& option = *baselines::find_mesh_option("threads");
+  const auto& bounds = std::get<baselines::CountKind>(option.kind);
+  verb.add_option("--threads", threads, std::string(option.what))
+      ->check(whole_number(bounds.least, bounds.most))
       ->default_str("all cores");
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "baselines/option_table.h"
 #include "engine/base/enum_names.h"
 
 namespace ccdt::tools {
@@ -30,33 +32,24 @@ CLI::Validator known_mesher();
 
 /// Adds an option whose values are names, in upper or lower case; --help lists them with their meanings.
 ///
-/// \param target  gets the value; the default is its own value, or the first one if that is not among the values
-/// \param what    the option's meaning
-template <class Target, class Value, std::size_t count>
-void add_choice(CLI::App& verb, const std::string& option, Target& target,
-                const std::array<NamedValue<Value>, count>& values, std::string what) {
-  std::vector<std::string> names;
-  std::string standard(values.front().name);
-  for (const NamedValue<Value>& v : values) {
-    names.emplace_back(v.name);
-    what += "\n  " + names.back() + ": " + std::string(v.what);
-    if (target == v.value) standard = names.back();
-  }
-  verb.add_option_function<std::string>(
-          option,
-          [&target, values](const std::string& name) {
-            for (const NamedValue<Value>& v : values)
-              if (v.name == name) target = v.value;
-          },
-          what)
-      ->transform(one_of(names, true))
-      ->default_str(standard);
-}
+/// \param set       gets the name that was chosen
+/// \param standard  the default
+/// \param what      the option's meaning
+void add_choice(CLI::App& verb, const std::string& option, const std::vector<baselines::ChoiceKind::Name>& names,
+                std::function<void(const std::string&)> set, std::string_view standard, std::string what);
 
+/// The same for an enumeration; the default is its value.
 template <NamedEnum Enum>
 void add_choice(CLI::App& verb, const std::string& option, Enum& target, const std::string& what) {
-  add_choice(verb, option, target, names_of(Enum{}), what);
+  std::vector<baselines::ChoiceKind::Name> names;
+  for (const NamedValue<Enum>& value : names_of(Enum{})) names.push_back({value.name, value.what});
+  add_choice(
+      verb, option, names, [&target](const std::string& name) { target = value_of<Enum>(name).value_or(target); },
+      name_of(target), what);
 }
+
+/// Adds an option of the table. \param options  get the value, and have the default
+void add_mesh_option(CLI::App& verb, const baselines::MeshOption& option, MeshOptions& options);
 
 /// Adds --threads. \param threads  gets their number; 0, which stands for all cores, is the default
 void add_threads(CLI::App& verb, unsigned& threads);

@@ -1,6 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "baselines/option_table.h"
+#include "bench/run/json.h"
+#include "bench/run/run_record.h"
 #include "engine/io/files.h"
 #include "engine/version.h"
 #include "tools/commands.h"
@@ -27,6 +30,27 @@ void write_man_pages(const ProgramText& program, const std::filesystem::path& fo
   }
 }
 
+/// What the member of a report can be that has a value of this option.
+bench::Json schema_of(const baselines::MeshOption& option) {
+  bench::Json schema = bench::Json::object();
+  if (const auto* choice = std::get_if<baselines::ChoiceKind>(&option.kind); choice == nullptr)
+    schema["type"] = std::holds_alternative<baselines::FileKind>(option.kind) ? "string" : "number";
+  else if (choice->names.front().name == "on")
+    schema["type"] = "boolean";
+  else
+    for (const auto& name : choice->names) schema["enum"].push_back(name.name);
+  if (const auto* count = std::get_if<baselines::CountKind>(&option.kind)) schema["minimum"] = count->least;
+  if (!option.in_report.empty()) schema["description"] = option.in_report;
+  return schema;
+}
+
+bench::Json schemas_of_options() {
+  bench::Json schemas = bench::Json::object();
+  for (const baselines::MeshOption& option : baselines::mesh_options())
+    schemas[bench::option_key(option.name)] = schema_of(option);
+  return schemas;
+}
+
 }  // namespace
 
 void add_completion_command(CLI::App& app, ExitCode& exit_code) {
@@ -50,7 +74,7 @@ void add_completion_command(CLI::App& app, ExitCode& exit_code) {
 void add_man_command(CLI::App& app, ExitCode& exit_code) {
   struct ManCommand {
     std::string folder;
-    bool markdown = false;
+    bool markdown = false, schema = false;
   };
   auto command = std::make_shared<ManCommand>();
   CLI::App* verb = app.add_subcommand("man", "write the man pages");
@@ -58,12 +82,17 @@ void add_man_command(CLI::App& app, ExitCode& exit_code) {
       verb->add_option("-o,--output", command->folder, "folder of the pages, created if needed; default: print them");
   verb->add_flag("--markdown", command->markdown, "print all verbs and options as one page of Markdown")
       ->excludes(folder);
+  verb->add_flag("--option-schema", command->schema,
+                 "print the members of reports that have the options of `ccdt mesh`")
+      ->excludes(folder);
   verb->footer(
       "Example: read the page of a verb\n"
       "  ccdt man -o man && man ./man/ccdt-mesh.1\n");
   verb->callback([command, &app, &exit_code] {
     const ProgramText program = text_of(app);
-    if (command->markdown)
+    if (command->schema)
+      print(schemas_of_options().dump() + "\n");
+    else if (command->markdown)
       print(markdown_reference(program));
     else
       write_man_pages(program, command->folder);

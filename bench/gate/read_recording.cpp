@@ -113,17 +113,21 @@ void add_identity(const Json& run, bench::Identity& identity) {
 }
 
 /// The options of a report that are not defaults of its mesher, so that equal cases have equal names in all recordings:
-/// "part.off, ccdt, lattice bcc".
+/// "part.off, ccdt, lattice bcc". Their order is that of this program, for other versions may write another.
 std::string name_of_case(const Json& run, const std::string& input) {
   static const bench::RunRecord usual = bench::start_record(baselines::mesher("ccdt"), {}, {});
   std::vector<std::string> parts = {input, run.at("mesher").at("name").get<std::string>()};
-  for (const auto& [name, value] : run.at("options").items()) {
-    const auto known = std::ranges::find(usual.options, name, &std::pair<std::string, bench::RunRecord::Option>::first);
-    Json usual_value;
-    if (known != usual.options.end()) std::visit([&](const auto& v) { usual_value = v; }, known->second);
-    if (!value.is_structured() && value != usual_value)
-      parts.push_back(name + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
+  const auto add = [&](const std::string& name, const Json& value) {
+    parts.push_back(name + " " + (value.is_string() ? value.get<std::string>() : value.dump()));
+  };
+  Json others = run.at("options");
+  for (const auto& [name, usual_value] : usual.options) {
+    const Json value = others.value(name, Json());
+    others.erase(name);
+    if (!value.is_null() && value != std::visit([](const auto& v) { return Json(v); }, usual_value)) add(name, value);
   }
+  for (const auto& [name, value] : others.items())
+    if (!value.is_structured()) add(name, value);
   return bench::joined(parts);
 }
 

@@ -1,12 +1,12 @@
 #include "bench/run/run_case.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 #include <vector>
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
+#include "baselines/option_table.h"
 #include "bench/run/environment.h"
 #include "bench/run/file_names.h"
 #include "bench/run/verify_run.h"
@@ -45,30 +45,19 @@ baselines::ProcessResult call(const RunPlace& place, std::vector<std::string> co
   return baselines::run_program(command, {.folder = place.folder, .limits = limits, .scratch = scratch.folder()});
 }
 
-/// An option of the command line as records have it: a number, true or false for on or off, or a name.
-void set_option(std::string name, const std::string& value, RunRecord& record) {
-  std::ranges::replace(name, '-', '_');
-  double number = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  if (error == std::errc() && end == value.data() + value.size())
-    record.set_option(name, number);
-  else if (value == "on" || value == "off")
-    record.set_option(name, value == "on");
-  else
-    record.set_option(name, value);
-}
-
 /// The record of a child process that ended before it wrote a report.
 RunRecord record_without_report(const RunPlace& place, const Case& asked) {
   InputPlc unread;
   unread.name = name_in(place.folder, asked.input);
-  RunRecord record = start_record(baselines::mesher(asked.mesher), unread, {});
-  record.set_option("threads", 1.0);
   baselines::NamedOptions options;
   for (std::size_t i = 0; i + 1 < asked.options.size(); i += 2)
     options[asked.options[i].substr(asked.options[i].find_first_not_of('-'))] = asked.options[i + 1];
-  for (const auto& [name, value] : baselines::with_strategies(options)) set_option(name, value, record);
-  return record;
+  MeshOptions chosen;
+  chosen.threads = 1;
+  for (const auto& [name, value] : baselines::with_strategies(options))
+    if (const baselines::MeshOption* const option = baselines::find_mesh_option(name))
+      set_value(*option, value, chosen);
+  return start_record(baselines::mesher(asked.mesher), unread, chosen);
 }
 
 RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesystem::path& report,

@@ -221,6 +221,12 @@ void RunRecord::set_failure(baselines::FailureKind why, std::string words) {
   reason = std::move(words);
 }
 
+std::string option_key(std::string_view name) {
+  std::string key(name);
+  std::ranges::replace(key, '-', '_');
+  return key;
+}
+
 RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options) {
   RunRecord record;
   record.environment = capture_environment();
@@ -230,29 +236,12 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
   record.input.vertices = input.vertices.size();
   record.input.facets = input.facet_count();
   record.input.segments = input.segments.size();
-  record.options = {{"face_protection", options.face_protection},
-                    {"lattice", std::string(name_of(options.lattice))},
-                    {"locator", std::string(name_of(options.locator))},
-                    {"delaunay", std::string(name_of(options.delaunay))},
-                    {"visibility", std::string(name_of(options.visibility))},
-                    {"protection", std::string(name_of(options.protection))},
-                    {"improve", std::string(name_of(improvement_of(options)))},
-                    {"objective", std::string(name_of(options.improve.objective))},
-                    {"target_r", options.improve.target_r},
-                    {"target_dihedral", options.improve.target_dihedral},
-                    {"boundary", std::string(name_of(options.improve.boundary))},
-                    {"steiner", std::string(name_of(options.improve.steiner))},
-                    {"improve_time", options.improve.time},
-                    {"surface", std::string(name_of(options.surface))},
-                    {"edge_length", options.edge_length},
-                    {"grading", options.grading},
-                    {"grid_scale", options.grid_scale},
-                    {"flatness", options.flatness},
-                    {"sizes", options.background.name},
-                    {"sphere_factor", options.sphere_factor},
-                    {"clearance", options.clearance},
-                    {"radius_edge", options.radius_edge},
-                    {"threads", static_cast<double>(number_of_threads(options))}};
+  MeshOptions own = options;
+  for (const baselines::MeshOption& option : baselines::mesh_options()) {
+    if (option.name == "sharp-angle" && options.surface != SurfaceRule::remesh) continue;
+    record.options.emplace_back(option_key(option.name), recorded_value(option, own));
+  }
+  record.set_option("threads", static_cast<double>(number_of_threads(options)));
   return record;
 }
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "baselines/mesher.h"
+#include "baselines/option_table.h"
 #include "baselines/process.h"
 #include "bench/run/environment.h"
 #include "bench/run/json.h"
@@ -29,7 +29,7 @@ struct VerifiedMesh {
 
 /// One run of one mesher on one input, written as JSON of schema `ccdt.run/1`.
 struct RunRecord {
-  using Option = std::variant<bool, double, std::string>;
+  using Option = baselines::OptionValue;
 
   struct MesherName {
     std::string name, version, revision;
@@ -66,6 +66,9 @@ struct RunRecord {
   /// Records a failure; also sets the status.
   void set_failure(baselines::FailureKind why, std::string words);
 };
+
+/// The name of an option in a record: "edge_length" for "edge-length".
+std::string option_key(std::string_view name);
 
 /// A record of the mesher, the input and the options, before anything is done.
 RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, const MeshOptions& options);

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "engine/mesher.h"
+
+namespace ccdt::baselines {
+
+/// One of several names. "on" and "off" stand for true and false.
+struct ChoiceKind {
+  struct Name {
+    std::string_view name, what;
+  };
+  std::vector<Name> names;
+  std::function<std::string_view(const MeshOptions&)> get;
+  std::function<void(MeshOptions&, std::string_view)> set;  ///< nothing happens for other names
+};
+
+/// A finite number within bounds.
+struct NumberKind {
+  double& (*member)(MeshOptions&);
+  double least = 0, most = std::numeric_limits<double>::infinity();
+  bool excludes_least = false;
+};
+
+/// A whole number within bounds.
+struct CountKind {
+  unsigned& (*member)(MeshOptions&);
+  int least = 1, most = 1;
+};
+
+/// The name of a file.
+struct FileKind {
+  std::string& (*member)(MeshOptions&);
+};
+
+/// An option has an effect only if another one has this value, or has not.
+struct Need {
+  std::string_view option;
+  bool is = true;
+  std::string_view value;
+};
+
+/// An option of `ccdt mesh` that controls meshing: all that the command line, sweeps, reports and the reference know of
+/// it.
+struct MeshOption {
+  std::string_view name;  ///< without dashes: "edge-length"; in JSON with underscores
+  std::variant<ChoiceKind, NumberKind, CountKind, FileKind> kind;
+  std::string_view what;            ///< its help text
+  std::string_view in_report = {};  ///< what a reader of reports must know: the unit, or the meaning of 0
+  std::vector<Need> needs = {};
+  bool of_inside = false;      ///< our engine uses it only for interior points
+  bool of_refinement = false;  ///< and for `--surface refine`
+  bool of_remeshing = false;   ///< has an effect with `--surface remesh`, before any mesher runs
+  /// The default, if that of `MeshOptions` is not one; empty: it depends on the input.
+  std::optional<std::string_view> usual = {};
+};
+
+/// The one table of options, in the order of --help.
+const std::vector<MeshOption>& mesh_options();
+
+/// The option of this name; null if there is none.
+const MeshOption* find_mesh_option(std::string_view name);
+
+/// A value as reports have it.
+using OptionValue = std::variant<bool, double, std::string>;
+
+OptionValue recorded_value(const MeshOption& option, MeshOptions& options);
+
+/// Sets an option to a value as on the command line. A value that the command line refuses may do nothing.
+void set_value(const MeshOption& option, std::string_view value, MeshOptions& options);
+
+/// The value as on the command line.
+std::string text_of(const OptionValue& value);
+
+}  // namespace ccdt::baselines
