@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/geometry/balls.h"
@@ -311,6 +312,7 @@ class Refiner {
     const VertexId v(points_.size());
     points_.push_back(*p);
     const WalkEnd end = f.walk(triangle, v);
+    if (!end.wall && end.triangle == planar::none) ++work_done.refinement_walks;
     const std::optional<Side> wall = end.wall ? end.wall : encroached(facet, end.triangle, v);
     if (wall || end.triangle == planar::none || is_too_near(facet, end.triangle, v, wanted) ||
         !f.insert(v, end.triangle)) {
