@@ -75,7 +75,7 @@ class Strips {
       const Point3 normal = area_vector({point(t[0]), point(t[1]), point(t[2])});
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
-        if (segment_of_edge_.find(a, b) != EdgeMap::none)
+        if (segment_of_edge_.find(a, b) != none)
           edges.push_back({{a, b}, normalized(cross(normal, point(b) - point(a)))});
       }
     }
