@@ -176,9 +176,9 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
                    bench::RunRecord& record) {
   const MeshResult& result = run.result;
   record.counts = result.counts;
-  const StageCost remeshing = record.costs[Stage::remesh];
-  record.costs = result.costs;
-  record.costs[Stage::remesh] = remeshing;
+  StageCosts costs = result.costs;
+  costs[Stage::remesh] = record.costs[Stage::remesh];
+  record.set_costs(costs);
   record.largest_rounding = result.largest_rounding;
   record.mesher_settings = run.settings;
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());

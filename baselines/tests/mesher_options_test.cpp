@@ -147,10 +147,10 @@ TEST(EffectiveOptions, SayWhatImprovementDoesWhereTheLatticeDecidesThat) {
 
 TEST(EffectiveOptions, AreAlwaysThoseOfTheSurfaceForItIsRemeshedBefore) {
   const NamedOptions remeshed = {{"edge-length", "2"}, {"flatness", "1e-06"}, {"surface", "remesh"}};
-  Mesher none = refiner();
-  none.options.clear();
-  EXPECT_EQ(effective_options(none, remeshed), remeshed);
-  EXPECT_EQ(effective_options(none, {{"edge-length", "2"}, {"flatness", "1e-06"}}), NamedOptions());
+  Mesher bare = refiner();
+  bare.options.clear();
+  EXPECT_EQ(effective_options(bare, remeshed), remeshed);
+  EXPECT_EQ(effective_options(bare, {{"edge-length", "2"}, {"flatness", "1e-06"}}), NamedOptions());
 }
 
 TEST(EffectiveOptions, HaveTheSameEffectAgain) {

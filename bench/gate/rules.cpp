@@ -76,10 +76,10 @@ void read_time(const Json& json, TimeRules& time, const std::string& file, const
 ExactRules exact_from(const Json& json) {
   ExactRules exact;
   bench::read_fields(json, bench::fields<ExactRules>, exact);
-  static const Json none = Json::object();
-  for (const auto& [pattern, share] : (json.contains("tolerances") ? json["tolerances"] : none).items())
+  static const Json empty = Json::object();
+  for (const auto& [pattern, share] : (json.contains("tolerances") ? json["tolerances"] : empty).items())
     exact.tolerances.emplace_back(pattern, share.get<double>());
-  for (const auto& [pattern, better] : (json.contains("better") ? json["better"] : none).items())
+  for (const auto& [pattern, better] : (json.contains("better") ? json["better"] : empty).items())
     exact.better.emplace_back(pattern, better.get<Better>());
   return exact;
 }

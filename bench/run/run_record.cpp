@@ -97,6 +97,7 @@ constexpr auto fields_after_seconds =
     std::tuple(field("peak_rss_bytes", &RunRecord::peak_rss_bytes), field("quality", &RunRecord::quality),
                field(
                    "volume", [](auto& record) -> auto& { return record.quality.volume; }),
+               field_if_any("limits_reached", &RunRecord::limits_reached),
                field_if_any("mesh_fingerprint", &RunRecord::mesh_fingerprint),
                field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status),
                field_if_any("kind", &RunRecord::kind), field_if_any("reason", &RunRecord::reason),
@@ -213,6 +214,13 @@ void RunRecord::set_option(std::string_view name, const Option& value) {
     found->second = value;
   else
     options.emplace_back(name, value);
+}
+
+void RunRecord::set_costs(const StageCosts& its) {
+  costs = its;
+  for (const StageCost& cost : costs.stages)
+    for (const WorkCount& limit : limit_counts)
+      if (const std::uint64_t count = cost.work.*limit.count; count != 0) limits_reached[limit.name] += count;
 }
 
 void RunRecord::set_failure(baselines::FailureKind why, std::string words) {

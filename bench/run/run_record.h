@@ -49,7 +49,8 @@ struct RunRecord {
   double read_seconds = 0, write_seconds = 0;
   std::uint64_t peak_rss_bytes = 0;
   Quality quality;
-  std::string mesh_fingerprint;  ///< see bench/run/fingerprint.h; empty without a mesh
+  std::string mesh_fingerprint;                         ///< see bench/run/fingerprint.h; empty without a mesh
+  std::map<std::string, std::uint64_t> limits_reached;  ///< of `limit_counts`, those that are not 0
   double largest_rounding = 0;
   baselines::RunStatus status = baselines::RunStatus::ok;
   std::optional<baselines::FailureKind> kind;  ///< of a failure; older programs did not write it
@@ -59,6 +60,9 @@ struct RunRecord {
   std::optional<VerifiedMesh> verification;
   std::vector<std::string> notes;                      ///< what a reader must know
   std::map<std::string, std::vector<double>> samples;  ///< raw seconds by name, if one record stands for several runs
+
+  /// Sets the costs, and the limits that are counted among them.
+  void set_costs(const StageCosts& its);
 
   /// Replaces the option of this name, or adds it.
   void set_option(std::string_view name, const Option& value);

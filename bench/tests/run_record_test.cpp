@@ -42,6 +42,17 @@ bench::RunRecord example_record() {
   return record;
 }
 
+TEST(RunRecord, SumsUpTheLimitsOfAllStages) {
+  StageCosts costs;
+  costs[Stage::remesh].work.feature_triangles = 2, costs[Stage::refine].work.feature_triangles = 3;
+  costs[Stage::improve].work.cell_tries = 7;
+  bench::RunRecord record = example_record();
+  EXPECT_FALSE(Json::parse(bench::to_json(record)).contains("limits_reached"));
+  record.set_costs(costs);
+  const std::map<std::string, std::uint64_t> limits = {{"cell_tries", 7}, {"feature_triangles", 5}};
+  EXPECT_EQ(bench::run_record_from_json(bench::to_json(record)).limits_reached, limits);
+}
+
 TEST(RunRecord, HasTheFixedNamesOfTheSchema) {
   const Json json = Json::parse(bench::to_json(example_record()));
   EXPECT_EQ(json["schema"], "ccdt.run/1");

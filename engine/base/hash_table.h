@@ -18,7 +18,7 @@ struct HashTraits;
 /// Indices of any kind.
 template <>
 struct HashTraits<std::uint32_t> {
-  static constexpr std::uint32_t none() { return 0xFFFFFFFFu; }
+  static constexpr std::uint32_t none() { return ccdt::none; }
   static std::size_t hash(std::uint32_t key) {
     const std::uint64_t h = key * std::uint64_t{0x9E3779B97F4A7C15};
     return static_cast<std::size_t>(h ^ h >> 32);
@@ -40,7 +40,7 @@ struct HashTraits<std::uint64_t> {
 /// Faces, by `face_key`.
 template <>
 struct HashTraits<std::array<std::uint32_t, 3>> {
-  static constexpr std::array<std::uint32_t, 3> none() { return {0xFFFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFFFu}; }
+  static constexpr std::array<std::uint32_t, 3> none() { return {ccdt::none, ccdt::none, ccdt::none}; }
   static std::size_t hash(const std::array<std::uint32_t, 3>& key) {
     std::uint64_t h = (std::uint64_t{key[0]} << 32 | key[1]) * 0x9E3779B97F4A7C15u ^ key[2] * 0xC2B2AE3D27D4EB4Fu;
     h ^= h >> 29;

@@ -5,15 +5,16 @@
 
 namespace ccdt {
 
+/// Instead of an index or a code of 32 bits: there is none.
+inline constexpr std::uint32_t none = 0xFFFFFFFFu;
+
 /// An index that cannot be mistaken for an index of another kind.
 ///
 /// It converts implicitly to an integer, so that it can subscript arrays. An integer or an index of another kind must
 /// be converted explicitly.
 template <class Tag>
 struct Index {
-  std::uint32_t value = none_value;
-
-  static constexpr std::uint32_t none_value = 0xFFFFFFFFu;
+  std::uint32_t value = none;
 
   constexpr Index() = default;
   constexpr explicit Index(std::uint32_t v) : value(v) {}
@@ -21,7 +22,7 @@ struct Index {
   constexpr explicit Index(Integer v) : value(static_cast<std::uint32_t>(v)) {}
 
   constexpr operator std::uint32_t() const { return value; }
-  constexpr bool is_none() const { return value == none_value; }
+  constexpr bool is_none() const { return value == none; }
   constexpr auto operator<=>(const Index&) const = default;
   constexpr bool operator==(const Index&) const = default;
 };

@@ -37,7 +37,6 @@ template <std::size_t N>
 class SimplexMap {
  public:
   using Corners = std::array<std::uint32_t, N>;
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
 
   SimplexMap() = default;
   /// \param simplices  corners of any integer or index type; edges are pairwise different

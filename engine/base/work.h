@@ -67,6 +67,22 @@ struct Work {
   std::uint64_t edges_collapsed = 0;      ///< edges that were collapsed into one of their ends
   std::uint64_t triangles_evaluated = 0;  ///< triangles whose quality was computed, at each place of a corner anew
 
+  // ---- Limits that ended a search although more could be done; see `limit_counts`
+  /// Attempts to remesh where triangles crossed however short the edges: old triangles stay.
+  std::uint64_t remeshing_halvings = 0;
+  /// Improvements of the worst triangles of a new surface that were not at their end.
+  std::uint64_t remeshing_sweeps = 0;
+  /// Times that features would have cost too many triangles: their shortest edges are longer.
+  std::uint64_t feature_triangles = 0;
+  std::uint64_t thin_places = 0;       ///< searches for thin places of a refined surface that left the thinnest out
+  std::uint64_t refinement_walks = 0;  ///< places for vertices of a refined surface that were not reached
+  /// 1: edges are left that could still be split so that interior points may be near them.
+  std::uint64_t rounds_of_room = 0;
+  std::uint64_t removal_turns = 0;   ///< Steiner vertices that were left when their turns were over
+  std::uint64_t filling_steps = 0;   ///< polyhedra of improvement whose filling was not searched to the end
+  std::uint64_t cell_tries = 0;      ///< bad tetrahedra that were given up although something near them had changed
+  std::uint64_t shaking_rounds = 0;  ///< 1: very bad tetrahedra were left after all random changes
+
   /// The peak bytes of a stage's large arrays, both result and working memory: of elements in use, without reserved
   /// memory. It is the same on every machine, unlike the memory of the process, which is `peak_rss_bytes` of
   /// `ccdt.run/1`.
@@ -132,14 +148,34 @@ inline constexpr auto work_counts = std::to_array<WorkCount>({
     {"triangles_evaluated", &Work::triangles_evaluated},
     {"peak_bytes", &Work::peak_bytes, WorkKind::largest},
 });
-static_assert(sizeof(Work) == work_counts.size() * sizeof(std::uint64_t), "every count has its name");
+
+/// How often a limit ended a search early, so that the result is worse than it could be; with their names in
+/// `limits_reached` of `ccdt.run/1`, whose schema says what each means for the mesh. Limits that belong to the
+/// definition of an algorithm, and those that end in an error, are not among them.
+inline constexpr auto limit_counts = std::to_array<WorkCount>({
+    {"remeshing_halvings", &Work::remeshing_halvings},
+    {"remeshing_sweeps", &Work::remeshing_sweeps},
+    {"feature_triangles", &Work::feature_triangles},
+    {"thin_places", &Work::thin_places},
+    {"refinement_walks", &Work::refinement_walks},
+    {"rounds_of_room", &Work::rounds_of_room},
+    {"removal_turns", &Work::removal_turns},
+    {"filling_steps", &Work::filling_steps},
+    {"cell_tries", &Work::cell_tries},
+    {"shaking_rounds", &Work::shaking_rounds},
+});
+static_assert(sizeof(Work) == (work_counts.size() + limit_counts.size()) * sizeof(std::uint64_t),
+              "every count has its name");
 
 inline Work& Work::operator+=(const Work& more) {
-  for (const auto& [name, count, kind] : work_counts)
-    if (kind == WorkKind::sum)
-      this->*count += more.*count;
-    else if (more.*count > this->*count)
-      this->*count = more.*count;
+  const auto add = [&](const WorkCount& c) {
+    if (c.kind == WorkKind::sum)
+      this->*c.count += more.*c.count;
+    else if (more.*c.count > this->*c.count)
+      this->*c.count = more.*c.count;
+  };
+  for (const WorkCount& c : work_counts) add(c);
+  for (const WorkCount& c : limit_counts) add(c);
   return *this;
 }
 

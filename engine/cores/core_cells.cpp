@@ -30,18 +30,18 @@ class CellMaker {
 
   void make_cells_of(const SiteBlock& block) {
     if (block.cell_count == 0) return;
-    point_.gather(sites_, block, &SiteBlock::point, nothing);
-    cube_.gather(sites_, block, &SiteBlock::cube, nothing);
+    point_.gather(sites_, block, &SiteBlock::point, none);
+    cube_.gather(sites_, block, &SiteBlock::cube, none);
     kind_.gather(sites_, block, &SiteBlock::kind, 0);
     for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
       const Place p = {x, y, z};
-      if (has_shape_at(sites_.kind, p) && block.point[i] != nothing) {
+      if (has_shape_at(sites_.kind, p) && block.point[i] != none) {
         if (sites_.kind == Lattice::fcc)
           make_octahedron(at, block.point[i], block.kind[i]);
         else
           make_tetrahedra_at_face(at, block.point[i], even_axis(p));
       }
-      if (block.cube[i] == nothing) return;
+      if (block.cube[i] == none) return;
       if (sites_.kind == Lattice::fcc)
         make_tetrahedron(at, block.cube[i], (x + y + z) & 1);
       else
@@ -58,15 +58,15 @@ class CellMaker {
         const std::uint32_t number = first_ + cell;
         const std::atomic_ref last(d_.cell_at[v]);
         std::uint32_t before = last.load(std::memory_order_relaxed);
-        while ((before == delaunay::no_cell || before < number) &&
+        while ((before == none || before < number) &&
                !last.compare_exchange_weak(before, number, std::memory_order_relaxed)) {
         }
       }
   }
 
-  /// Joins face f of a cell to the face of another core cell with this code; `nothing`: there is none.
+  /// Joins face f of a cell to the face of another core cell with this code; `none`: there is none.
   void join(std::uint32_t cell, std::uint32_t f, std::uint32_t code) {
-    if (code == nothing) {
+    if (code == none) {
       border_.push_back(face_code(first_ + cell, f));
       cells_[cell].neighbors[f] = no_neighbor;
     } else {
@@ -74,7 +74,7 @@ class CellMaker {
     }
   }
   static std::uint32_t code_in(std::uint32_t base, std::uint32_t cell, std::uint32_t f) {
-    return base == nothing ? nothing : face_code(base + cell, f);
+    return base == none ? none : face_code(base + cell, f);
   }
 
   // ---- Face-centered: tetrahedra and octahedra, which meet each other only
@@ -163,7 +163,7 @@ class CellMaker {
     // All on the upper side of one axis, or all on the lower one.
     const unsigned axis = all != 0 ? all : 7 & ~any;
     const int next = all != 0 ? at + corner_offset(axis) : at - corner_offset(axis);
-    if (cube_[next] == nothing) return nothing;
+    if (cube_[next] == none) return none;
     unsigned mask = 0;
     for (const std::uint32_t v : corners) mask |= 1u << (v ^ axis);
     return 4 * cube_[next] + split_of_kind(kind_[next]).outer[mask];

@@ -67,7 +67,7 @@ class Joiner {
       if (others == 1 && is_on_border(v[f])) continue;
       const auto face = corners_of_face(v, f);
       const auto [number, is_opposite] = faces_.find(face[0], face[1], face[2]);
-      if (number == FaceMap::none) continue;
+      if (number == none) continue;
       walls_[c] |= static_cast<std::uint8_t>(1u << f);
       if (is_opposite) {
         delaunay::join_faces(d_.cells, face_code(c, f), border_[number]);

@@ -49,7 +49,7 @@ class CoreFinder {
   /// Finds the shapes with all their vertices, and how they are split.
   void find_whole_shapes(SiteBlock& block) {
     around_.gather(sites_, block, &SiteBlock::flags, 0);
-    vertex_.gather(sites_, block, &SiteBlock::point, nothing);
+    vertex_.gather(sites_, block, &SiteBlock::point, none);
     const auto is_present = [&](int i) { return (around_[i] & present) != 0; };
     for_each_place([&](std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t i, int at) {
       const Place p = {x, y, z};
@@ -153,8 +153,8 @@ void move_numbers(SiteBlock& block, std::uint32_t by) {
   block.first_cell += by;
   if (block.cell_count == 0) return;
   for (std::size_t i = 0; i < SiteBlock::size; ++i) {
-    if ((block.shapes[i] & core_point) != 0 && block.point[i] != nothing) block.point[i] += by;
-    if (block.cube[i] != nothing) block.cube[i] += by;
+    if ((block.shapes[i] & core_point) != 0 && block.point[i] != none) block.point[i] += by;
+    if (block.cube[i] != none) block.cube[i] += by;
   }
 }
 

@@ -27,7 +27,7 @@ struct LatticeCore {
 };
 
 /// \param lattice  the interior points
-/// \param vertex   by point: its vertex, which is also its rank; or `nothing` if it is absent
+/// \param vertex   by point: its vertex, which is also its rank; or `none` if it is absent
 /// \param others   all vertices that are not lattice points
 /// \param vertices the number of all vertices
 LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex,

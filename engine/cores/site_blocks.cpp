@@ -71,13 +71,13 @@ SiteMap::SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uin
 
 /// The levels with points. A point of a level may be a site of only the next finer one.
 void SiteMap::make_levels() {
-  index_.assign(lattice_.depth + 1, nothing);
+  index_.assign(lattice_.depth + 1, none);
   for (const std::uint8_t level : lattice_.levels)
     for (unsigned l = level; l <= std::min(level + 1u, lattice_.depth); ++l) index_[l] = 0;
   index_[lattice_.depth] = 0;  // every point is a site of the finest level
   const unsigned log_whole = lattice_.kind == Lattice::sc ? 1 : 0;
   for (unsigned level = 0; level <= lattice_.depth; ++level) {
-    if (index_[level] == nothing) continue;
+    if (index_[level] == none) continue;
     index_[level] = static_cast<std::uint32_t>(all_.levels.size());
     all_.levels.push_back({log_whole + lattice_.depth - level, {}});
   }
@@ -93,7 +93,7 @@ void SiteMap::find_runs() {
                                     const std::uint32_t level = level_of(i, c);
                                     const Place at = block_at(place(level, c));
                                     if (runs.size() == first || runs.back().level != level || runs.back().at != at)
-                                      runs.push_back({i, i, level, at, nothing});
+                                      runs.push_back({i, i, level, at, none});
                                     runs.back().end = i + 1;
                                   }
                                 });
@@ -113,7 +113,7 @@ void SiteMap::make_blocks() {
     SiteBlock& block = all_.blocks[b];
     block.at = run.at, block.level = run.level;
     block.has_core = false, block.near_levels = 0, block.first_cell = 0, block.cell_count = 0;
-    block.point.fill(nothing), block.cube.fill(nothing);
+    block.point.fill(none), block.cube.fill(none);
     block.flags.fill(0), block.shapes.fill(0), block.kind.fill(0);
   });
 }
@@ -143,7 +143,7 @@ std::uint32_t SiteMap::level_of(std::uint32_t point, const Place& c) const {
 }
 
 void SiteMap::put(std::uint32_t block, const Place& p, std::uint32_t vertex) {
-  if (vertex == nothing) return;
+  if (vertex == none) return;
   const std::size_t i = SiteBlocks::place_in_block(p);
   all_.blocks[block].point[i] = vertex;
   all_.blocks[block].flags[i] |= present;
@@ -151,11 +151,11 @@ void SiteMap::put(std::uint32_t block, const Place& p, std::uint32_t vertex) {
 
 /// A point is a site of all finer lattices, and of some coarser ones.
 void SiteMap::put_on_other_levels(std::uint64_t near_levels, std::uint32_t point, std::uint32_t vertex) {
-  if (vertex == nothing) return;
+  if (vertex == none) return;
   const auto c = coordinates(point);
   for (std::uint32_t level = 0; level < all_.levels.size(); ++level) {
     if ((near_levels >> level & 1) == 0 || !is_on(level, c)) continue;
-    if (const std::uint32_t b = all_.find(level, place(level, c)); b != nothing) put(b, place(level, c), vertex);
+    if (const std::uint32_t b = all_.find(level, place(level, c)); b != none) put(b, place(level, c), vertex);
   }
 }
 
@@ -165,7 +165,7 @@ void SiteMap::find_neighbors(std::uint32_t b) {
     const std::uint32_t step[] = {i % 3, i / 3 % 3, i / 9};
     Place at = block.at;
     for (int k = 0; k < 3; ++k) at[k] += step[k] - 1;
-    block.around[i] = all_.levels[block.level].blocks.get(morton_code(at), nothing);
+    block.around[i] = all_.levels[block.level].blocks.get(morton_code(at), none);
   }
   for (std::uint32_t coarse = 0; coarse < block.level; ++coarse) find_coarser(b, coarse);
 }
@@ -186,8 +186,8 @@ void SiteMap::find_coarser(std::uint32_t b, std::uint32_t coarse) {
   for (Place at = low; at[2] <= high[2]; ++at[2])
     for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
       for (at[0] = low[0]; at[0] <= high[0]; ++at[0]) {
-        const std::uint32_t other = all_.levels[coarse].blocks.get(morton_code(at), nothing);
-        if (other == nothing) continue;
+        const std::uint32_t other = all_.levels[coarse].blocks.get(morton_code(at), none);
+        if (other == none) continue;
         note_near_level(block, coarse);
         note_near_level(all_.blocks[other], block.level);
       }
@@ -216,8 +216,8 @@ void SiteMap::for_blocks_in(std::uint32_t level, const Place& low, const Place& 
   for (Place at = first; at[2] <= last[2]; ++at[2])
     for (at[1] = first[1]; at[1] <= last[1]; ++at[1])
       for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) {
-        const std::uint32_t b = all_.levels[level].blocks.get(morton_code(at), nothing);
-        if (b == nothing || !all_.blocks[b].has_core) continue;
+        const std::uint32_t b = all_.levels[level].blocks.get(morton_code(at), none);
+        if (b == none || !all_.blocks[b].has_core) continue;
         Place from, to;
         for (std::size_t k = 0; k < 3; ++k) {
           from[k] = std::max(low[k], at[k] * side) % side;

@@ -14,8 +14,6 @@ namespace ccdt::cores {
 
 using lattice::Lattice;
 
-inline constexpr std::uint32_t nothing = 0xFFFFFFFFu;
-
 /// The flags of a site.
 enum SiteFlag : std::uint8_t {
   present = 0x01,  ///< a vertex of the lattice is there
@@ -41,9 +39,9 @@ struct SiteBlock {
   bool has_core;                          ///< is any of its shapes core?
   std::uint32_t first_cell, cell_count;   ///< the cells of its shapes are first_cell .. first_cell + cell_count
   std::uint64_t near_levels;              ///< bits: levels with blocks near which vertices of this one may be
-  std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `nothing`: none
-  std::array<std::uint32_t, size> point;  ///< at a site: its vertex; elsewhere: the first cell of a shape; or `nothing`
-  std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `nothing`
+  std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `none`: there is none
+  std::array<std::uint32_t, size> point;  ///< at a site: its vertex; elsewhere: the first cell of a shape; or `none`
+  std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `none`
   std::array<std::uint8_t, size> flags;   ///< `SiteFlag`
   std::array<std::uint8_t, size> shapes;  ///< `ShapeFlag`
   std::array<std::uint8_t, size> kind;    ///< the split of a shape by the ranks of its vertices
@@ -82,7 +80,7 @@ struct SiteBlocks {
 
   std::uint32_t find(std::uint32_t level, const Place& p) const {
     return levels[level].blocks.get(
-        morton_code({p[0] / SiteBlock::side, p[1] / SiteBlock::side, p[2] / SiteBlock::side}), nothing);
+        morton_code({p[0] / SiteBlock::side, p[1] / SiteBlock::side, p[2] / SiteBlock::side}), none);
   }
   static std::size_t place_in_block(const Place& p) {
     return SiteBlock::place(p[0] % SiteBlock::side, p[1] % SiteBlock::side, p[2] % SiteBlock::side);
@@ -93,7 +91,7 @@ struct SiteBlocks {
 class SiteMap {
  public:
   /// \param lattice  must outlive this
-  /// \param vertex   by point of the lattice: its vertex, or `nothing` if it is absent
+  /// \param vertex   by point of the lattice: its vertex, or `none` if it is absent
   SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex);
 
   SiteBlocks& blocks() { return all_; }
@@ -157,12 +155,12 @@ class Surrounded {
         const std::size_t first = SiteBlock::place(0, static_cast<unsigned>(y) & 7u, static_cast<unsigned>(z) & 7u);
         const auto from = [&](int bx, std::size_t x) {
           const std::uint32_t b = block.around[static_cast<std::size_t>(row + bx)];
-          return b == nothing ? otherwise : (all.blocks[b].*array)[first + x];
+          return b == none ? otherwise : (all.blocks[b].*array)[first + x];
         };
         values_[i++] = from(0, 7);
         const std::uint32_t middle = block.around[static_cast<std::size_t>(row + 1)];
         for (std::size_t x = 0; x < 8; ++x)
-          values_[i++] = middle == nothing ? otherwise : (all.blocks[middle].*array)[first + x];
+          values_[i++] = middle == none ? otherwise : (all.blocks[middle].*array)[first + x];
         values_[i++] = from(2, 0);
       }
     }

@@ -100,7 +100,7 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
   d.cell_at.resize(points.size());
   parallel_for(order.size(), 4096, [&](std::size_t i) {
     d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i)};
-    d.cell_at[i] = no_cell;
+    d.cell_at[i] = none;
   });
   make_first_cells(d);
   std::vector<std::uint32_t> others(d.vertices.size() - 4);

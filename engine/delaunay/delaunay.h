@@ -14,8 +14,6 @@
 
 namespace ccdt::delaunay {
 
-inline constexpr std::uint32_t no_cell = 0xFFFFFFFFu;
-
 /// A vertex of the tetrahedralization. Its rank, which is its place in the order of insertion, is fixed and decides
 /// ties. Nothing in it changes, so threads may load it as a whole.
 struct alignas(32) DelaunayVertex {
@@ -49,8 +47,8 @@ struct Cell {
   std::array<std::uint32_t, 4> neighbors;
 };
 
-inline constexpr std::uint32_t ghost_vertex = VertexId::none_value;
-inline constexpr std::uint32_t no_neighbor = 0xFFFFFFFFu;
+inline constexpr std::uint32_t ghost_vertex = none;
+inline constexpr std::uint32_t no_neighbor = none;
 
 constexpr std::uint32_t face_code(std::uint32_t cell, std::uint32_t face) {
   return 4 * cell + face;
@@ -86,7 +84,7 @@ inline void join_faces(LargeVector<Cell>& cells, std::uint32_t a, std::uint32_t 
 /// structure: cells and vertices are indices into arrays. Cells whose place can be reused are dead.
 struct Delaunay {
   DelaunayVertices vertices;         ///< by id
-  RawVector<std::uint32_t> cell_at;  ///< by vertex: a cell with it; `no_cell`: it waits to be inserted
+  RawVector<std::uint32_t> cell_at;  ///< by vertex: a cell with it; `none`: it waits to be inserted
   LargeVector<Cell> cells;
   std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
@@ -95,7 +93,7 @@ struct Delaunay {
   std::uint32_t add_vertex(const Point3& p) {
     const auto v = static_cast<std::uint32_t>(vertices.size());
     vertices.push_back({p, v});
-    cell_at.push_back(no_cell);
+    cell_at.push_back(none);
     return v;
   }
   /// Takes back the last vertex that was added, which still waits.

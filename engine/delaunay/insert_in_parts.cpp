@@ -67,7 +67,7 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
     sample.push_back(d_.point(vertices[i]));
   const SpaceCut space(sample, parts, basis);
   start_ = std::vector<std::atomic<std::uint32_t>>(parts);
-  for (auto& start : start_) start = no_cell;
+  for (auto& start : start_) start = none;
   // From a shared cell, a walk may not get anywhere.
   const auto is_whole = [&](std::uint32_t cell, std::uint32_t part) {
     return std::ranges::all_of(d_.cells[cell].vertices, [&](std::uint32_t v) {
@@ -77,7 +77,7 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   parallel_for(vertices.back() + 1, 4096, [&](std::size_t v) {
     const std::uint32_t part = space.part_of(d_.point(static_cast<std::uint32_t>(v))), cell = d_.cell_at[v];
     part_[v] = static_cast<Part>(part);
-    if (cell != no_cell && start_[part].load(std::memory_order_relaxed) == no_cell && is_whole(cell, part))
+    if (cell != none && start_[part].load(std::memory_order_relaxed) == none && is_whole(cell, part))
       start_[part].store(cell, std::memory_order_relaxed);
   });
 }
@@ -137,7 +137,7 @@ std::vector<std::uint32_t> PartedInsertion::insert_in_order(Insertion& insertion
   const bool may_stop = number + 1 < bases.size() && !are_half_done();
   std::vector<std::uint32_t> waiting;
   std::size_t tried = 0;
-  bool is_stopped = last == no_cell;
+  bool is_stopped = last == none;
   for (const std::uint32_t v : vertices) {
     if (part_[v] != part) continue;
     is_stopped = is_stopped || (may_stop && are_half_done());

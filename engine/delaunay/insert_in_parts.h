@@ -56,7 +56,7 @@ class PartedInsertion {
 
   Delaunay& d_;
   std::vector<Part> part_;                         ///< by vertex
-  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell with a vertex of it; `no_cell`: none
+  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell with a vertex of it; `none`: none
   InsertionMarks& marks_;
   std::atomic<std::size_t> done_parts_ = 0;  ///< of this pass
   std::mutex mutex_;                         ///< guards the list of dead cells during a pass

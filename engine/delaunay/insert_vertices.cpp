@@ -91,7 +91,7 @@ std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> 
   d.cell_at.resize(first + points.size());
   parallel_for(points.size(), 4096, [&](std::size_t i) {
     d.vertices[first + i] = {points[order[i]], static_cast<std::uint32_t>(first + i)};
-    d.cell_at[first + i] = no_cell;
+    d.cell_at[first + i] = none;
   });
   return order;
 }

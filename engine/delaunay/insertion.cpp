@@ -206,7 +206,7 @@ CCDT_WIDE_LANES bool Insertion::find_cavity(std::uint32_t v, std::uint32_t start
 std::uint32_t Insertion::cell_near(std::uint32_t v, std::uint32_t other) const {
   if (v == 0 || (pool_ != nullptr && parts_.of_vertex[v - 1] != parts_.own)) return other;
   const std::uint32_t cell = d_.cell_at[v - 1];
-  return cell == no_cell ? other : cell;
+  return cell == none ? other : cell;
 }
 
 void Insertion::discard_cavity() {

@@ -19,7 +19,6 @@ using FaceCorners = std::array<std::uint32_t, 3>;
 
 // ---- The first face
 
-constexpr std::uint32_t none = VertexId::none_value;
 // A point straight up, about as far away as points can be, so that the filters of the predicates work as for any
 // points.
 constexpr Point3 upwards = {0, 0, 0x1p51};
@@ -319,7 +318,7 @@ Delaunay wrap_delaunay(DelaunayVertices vertices, double grid_scale, const Progr
   if (!hull_face) refuse_flat_points();
   Delaunay d;
   d.vertices = std::move(vertices);
-  d.cell_at.resize(d.vertices.size(), no_cell);
+  d.cell_at.resize(d.vertices.size(), none);
   d.cells = Wrap(grid, progress).run(*hull_face);
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     for (std::uint32_t& v : d.cells[c].vertices) {

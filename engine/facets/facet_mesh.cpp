@@ -171,7 +171,7 @@ class FacetMesher {
     if (!is_split_) return true;
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t segment = segment_of_edge_->find(t[i], t[(i + 1) % 3]);
-      if (segment != EdgeMap::none && chains_[segment].size() != 2) return false;
+      if (segment != none && chains_[segment].size() != 2) return false;
     }
     return true;
   }
@@ -182,7 +182,7 @@ class FacetMesher {
     for (const Triangle& t : triangles) {
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
-        if (const std::uint32_t found = segment_of_edge_->find(a, b); found != EdgeMap::none)
+        if (const std::uint32_t found = segment_of_edge_->find(a, b); found != none)
           segments.push_back({a, b, found, segments.size()});
       }
     }

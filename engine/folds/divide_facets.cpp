@@ -15,8 +15,6 @@
 namespace ccdt::folds {
 namespace {
 
-constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
-
 /// Is the first triangle beyond an edge of the second one, seen along an axis, up to rounding?
 bool is_beyond_an_edge(const std::array<Point3, 3>& one, const std::array<Point3, 3>& other, std::size_t axis) {
   constexpr double rounding = 1e-9;  // of the area
@@ -42,7 +40,7 @@ std::vector<std::uint32_t> list_neighbors(std::span<const std::array<VertexId, 3
     for (std::uint32_t k = 0; k < 3; ++k)
       sides.push_back({edge_key(triangles[i][k], triangles[i][(k + 1) % 3]), 3 * i + k});
   std::ranges::sort(sides);
-  std::vector<std::uint32_t> across(sides.size(), no_triangle);
+  std::vector<std::uint32_t> across(sides.size(), none);
   for (std::size_t s = 1; s < sides.size(); ++s) {
     if (sides[s - 1].edge != sides[s].edge) continue;
     across[sides[s - 1].value] = sides[s].value / 3;
@@ -64,7 +62,7 @@ FacetDivider::FacetDivider(const plc::Plc& plc, const delaunay::Delaunay& delaun
       least_height_(2 * tolerance),
       mesh_(facets::triangulate_facets(plc, protection::SegmentChains(plc.segments), delaunay)),
       first_(plc.facets.size() + 1, 0),
-      across_(3 * mesh_.triangles.size(), no_triangle),
+      across_(3 * mesh_.triangles.size(), none),
       is_separate_(mesh_.triangles.size(), 0),
       step_(plc.facets.size(), Step::whole) {
   for (const FacetId f : mesh_.facet) ++first_[f + 1];
@@ -73,7 +71,7 @@ FacetDivider::FacetDivider(const plc::Plc& plc, const delaunay::Delaunay& delaun
     if (!is_bent(f)) continue;
     const std::vector<std::uint32_t> across = list_neighbors(triangles_of(f));
     for (std::size_t side = 0; side < across.size(); ++side)
-      if (across[side] != no_triangle) across_[3 * first_[f] + side] = first_[f] + across[side];
+      if (across[side] != none) across_[3 * first_[f] + side] = first_[f] + across[side];
   }
 }
 
@@ -90,7 +88,7 @@ std::span<const std::array<VertexId, 3>> FacetDivider::triangles_of(std::uint32_
 /// The triangle with which this one stays. Two needles may have their longest edge in common.
 std::uint32_t FacetDivider::leader(std::uint32_t i) const {
   constexpr int most_steps = 100;
-  std::uint32_t before = no_triangle;
+  std::uint32_t before = none;
   for (int steps = 0; steps < most_steps; ++steps) {
     const std::array<Point3, 3> p = corners_of(mesh_.triangles[i]);
     std::array<double, 3> lengths{};
@@ -98,7 +96,7 @@ std::uint32_t FacetDivider::leader(std::uint32_t i) const {
     const auto longest = static_cast<std::size_t>(std::ranges::max_element(lengths) - lengths.begin());
     const std::uint32_t next = across_[3 * i + longest];
     const bool is_needle = length(area_vector(p)) < least_height_ * lengths[longest];
-    if (!is_needle || next == no_triangle) break;
+    if (!is_needle || next == none) break;
     if (next == before) return std::min(i, next);
     before = std::exchange(i, next);
   }
@@ -129,7 +127,7 @@ bool FacetDivider::separate(std::uint32_t f, const std::array<Point3, 3>& face) 
   for (std::uint32_t i = first_[f]; i < first_[f + 1]; ++i) {
     const std::array<Point3, 3> corners = corners_of(mesh_.triangles[i]);
     if (is_beyond_an_edge(face, corners, axis) || is_beyond_an_edge(corners, face, axis)) continue;
-    if (group_of(f, i - first_[f]) != no_triangle) continue;
+    if (group_of(f, i - first_[f]) != none) continue;
     is_separate_[step_[f] == Step::needles ? i : leader(i)] = 1;
     changed = true;
   }
@@ -183,7 +181,7 @@ void FacetDivider::make_grazeable(const plc::Plc& plc, std::span<const std::uint
 std::uint32_t FacetDivider::group_of(std::uint32_t f, std::uint32_t i) const {
   if (step_[f] == Step::input) return i;
   const std::uint32_t own = first_[f] + i, whole = leader(own);
-  if (is_separate_[own] == 0 && is_separate_[whole] == 0) return no_triangle;
+  if (is_separate_[own] == 0 && is_separate_[whole] == 0) return none;
   return (step_[f] == Step::needles ? own : whole) - first_[f];
 }
 
@@ -202,7 +200,7 @@ void FacetDivider::add_segments(std::uint32_t f, plc::Plc& result) const {
   const std::vector<std::uint32_t> across = list_neighbors(triangles);
   for (std::uint32_t side = 0; side < across.size(); ++side) {
     const std::uint32_t i = side / 3, j = across[side];
-    if (j == no_triangle || j < i || group_of(f, i) == group_of(f, j)) continue;
+    if (j == none || j < i || group_of(f, i) == group_of(f, j)) continue;
     const VertexId a = triangles[i][side % 3], b = triangles[i][(side + 1) % 3];
     const VertexId apex = *std::ranges::find_if(triangles[j], [&](VertexId v) { return v != a && v != b; });
     const auto [p, q, r] = corners_of(triangles[i]);

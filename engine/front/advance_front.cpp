@@ -90,7 +90,7 @@ class Front {
     note_bytes(bytes_of(plc_open_, undelaunay_, result_.tetrahedra, result_.regions, result_.open) + faces_.bytes() +
                owners_.bytes() + doubts_.bytes() + bytes_of(cavities_) + finder_bytes_);
     faces_.for_each([&](const OrientedFace&, const State& state) {
-      if (state.side == no_side) result_.open.push_back(state.face);
+      if (state.side == none) result_.open.push_back(state.face);
     });
     std::size_t kept = 0;
     for (std::uint32_t i = 0; i < result_.tetrahedra.size(); ++i) {
@@ -106,13 +106,12 @@ class Front {
  private:
   using Tetrahedron = std::array<std::uint32_t, 4>;
 
-  static constexpr std::uint32_t no_side = 0xFFFFFFFFu;
   static constexpr Tetrahedron no_tetrahedron = {ghost_vertex, ghost_vertex, ghost_vertex, ghost_vertex};
 
   struct State {
     FrontFace face;
-    std::uint32_t cavity = no_cavity;  // of the tetrahedron below, or of the missing face
-    std::uint32_t side = no_side;      // of the PLC, if any: such entries stay when they are closed
+    std::uint32_t cavity = none;  // of the tetrahedron below, or of the missing face
+    std::uint32_t side = none;    // of the PLC, if any: such entries stay when they are closed
   };
 
   static OrientedFace base_of(const Tetrahedron& t) { return {t[0], t[1], t[2]}; }
@@ -146,13 +145,13 @@ class Front {
     result_.undelaunay_faces = undelaunay_.size();
   }
 
-  bool is_open(const State& state) const { return state.side == no_side || plc_open_[state.side]; }
+  bool is_open(const State& state) const { return state.side == none || plc_open_[state.side]; }
 
   /// Takes a face from the front, if it is there.
   bool close(State* found, State& state) {
     if (found == nullptr || !is_open(*found)) return false;
     state = *found;
-    if (state.side == no_side)
+    if (state.side == none)
       faces_.erase(found);
     else
       plc_open_[state.side] = false;
@@ -161,7 +160,7 @@ class Front {
 
   /// Puts a face into the front, for the first time or again.
   void open(const OrientedFace& face, const State& state) {
-    if (state.side == no_side)
+    if (state.side == none)
       faces_.insert(face, state);
     else
       plc_open_[state.side] = true;
@@ -203,7 +202,7 @@ class Front {
     // The face is right if everything on which it rests is right. Then its apex is right too, and whatever contradicts
     // that is wrong or rests on something wrong.
     open(face, state);
-    if (state.side == no_side) contradict(face.reversed());
+    if (state.side == none) contradict(face.reversed());
     if (!take_back_contradicted(finder)) fail(face, problem);
   }
 
@@ -225,7 +224,7 @@ class Front {
 
   bool is_of_plc(const OrientedFace& face) const {
     const State* const state = faces_.find(face);
-    return state != nullptr && state->side != no_side;
+    return state != nullptr && state->side != none;
   }
 
   /// The base of the tetrahedron, or of the next one on which it rests, for which not all vertices were tried; none if
@@ -262,7 +261,7 @@ class Front {
     const char* problem = nullptr;
     for (const OrientedFace& face : faces_of(t)) {
       const State* other = faces_.find(face);
-      const bool is_of_plc = face == base ? state.side != no_side : other != nullptr && other->side != no_side;
+      const bool is_of_plc = face == base ? state.side != none : other != nullptr && other->side != none;
       if (owners_.contains(face)) {
         problem = "two tetrahedra of the front overlap";
         contradict(face);
@@ -307,7 +306,7 @@ class Front {
     if (State closed; close(faces_.find(inner), closed)) return;
     const OrientedFace outer = inner.reversed();
     const FrontFace face = {state.face.region, code_of(outer)};
-    open(outer, {face, state.cavity, no_side});
+    open(outer, {face, state.cavity, none});
     if (face.code == no_neighbor) ++result_.undelaunay_faces;
   }
 
@@ -340,7 +339,7 @@ class Front {
         faces_.erase(waiting);
       } else {
         const std::uint32_t below = *owners_.find(outer);
-        open(face, {{result_.regions[number], code_of(face)}, cavities_[below], no_side});
+        open(face, {{result_.regions[number], code_of(face)}, cavities_[below], none});
         if (base_of(result_.tetrahedra[below]) == outer) bases.push_back(outer);
       }
     }

@@ -15,8 +15,6 @@
 
 namespace ccdt::front {
 
-inline constexpr std::uint32_t no_cavity = locate::CavityLocator::no_cavity;
-
 /// The candidates for an apex: the vertices near the face, or all.
 enum class Search { near, full };
 
@@ -37,7 +35,7 @@ class WholeModelFinder {
   }
 
   Search first_search() const { return Search::full; }
-  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return no_cavity; }
+  std::uint32_t cavity_of_triangle(std::uint32_t /*triangle*/) const { return none; }
   std::size_t bytes() const { return locator_.bytes(); }
 
   /// The triangles that the front can meet.
@@ -67,11 +65,11 @@ class CavityFinder {
       const auto& [a, b, c] = face.corners;
       if (const std::uint32_t code = delaunay::find_face(d_, a, b, c); code != no_neighbor) {
         cavity = locator_.cavity_of_cell(cell_of(code));
-        if (cavity == no_cavity && d_.is_ghost(cell_of(code))) return std::nullopt;
-        if (cavity == no_cavity) return d_.cells[cell_of(code)].vertices[face_of(code)];
+        if (cavity == none && d_.is_ghost(cell_of(code))) return std::nullopt;
+        if (cavity == none) return d_.cells[cell_of(code)].vertices[face_of(code)];
       }
     }
-    if (cavity == no_cavity) return std::nullopt;
+    if (cavity == none) return std::nullopt;
     const locate::OctreeLocator* const chamber = locator_.chamber(cavity, region);
     if (chamber == nullptr) return std::nullopt;
     if (visibility_ == Visibility::faces) return find_apex_as_paper(*chamber, facets_, d_, face);

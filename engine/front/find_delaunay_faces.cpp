@@ -180,7 +180,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
         const delaunay::Cell& cell = delaunay.cells[delaunay::cell_of(code)];
         const auto [p, q, r] = delaunay::corners_of_face(cell.vertices, delaunay::face_of(code));
         const auto [face, is_below] = faces.find(p, q, r);
-        if (face != FaceMap::none) codes[face] = is_below ? cell.neighbors[delaunay::face_of(code)] : code;
+        if (face != none) codes[face] = is_below ? cell.neighbors[delaunay::face_of(code)] : code;
       }
     }
   });

@@ -121,9 +121,10 @@ bool is_stale(const CellComplex& x, const BadCell& bad) {
   return x.generation(bad.cell) != bad.generation || x.is_dead(bad.cell) || !is_bad(x, bad.cell);
 }
 
-bool should_be_tried(const CellComplex& x, const BadCell& bad) {
+/// Has something around the cell changed since it was last tried?
+bool could_be_tried(const CellComplex& x, const BadCell& bad) {
   const auto has_changed = [&](std::uint32_t v) { return x.changed_at(v) >= bad.tried_at; };
-  return bad.tries < most_tries && std::ranges::any_of(x.cell(bad.cell).vertices, has_changed);
+  return std::ranges::any_of(x.cell(bad.cell).vertices, has_changed);
 }
 
 bool have_changed(const CellComplex& x, std::span<const std::uint32_t> vertices, std::uint64_t since) {
@@ -149,7 +150,7 @@ void tidy(const CellComplex& x, std::vector<BadCell>& bad) {
 /// Puts a cell into the window. One close to another of the window waits, since it would probably be disturbed.
 void take(const CellComplex& x, const BadCell& bad, Window& window) {
   if (is_stale(x, bad)) return;
-  if (!should_be_tried(x, bad)) {
+  if (bad.tries >= most_tries || !could_be_tried(x, bad)) {
     window.cells.found.push_back(bad);
     return;
   }
@@ -397,6 +398,12 @@ ImproveCounts improve_cells(CellComplex& x, const std::vector<Freedom>& freedom,
   }
   tidy(x, found);
   counts.bad_cells_left = found.size();
+  if (!task.time_is_up()) {
+    const auto is_given_up = [&](const BadCell& bad) { return bad.tries >= most_tries && could_be_tried(x, bad); };
+    work_done.cell_tries += static_cast<std::uint64_t>(std::ranges::count_if(found, is_given_up));
+    if (improvement == Improvement::all && !found.empty() && found.front().quality < very_bad)
+      ++work_done.shaking_rounds;
+  }
   counts.stop = found.empty() ? ImproveStop::target : task.time_is_up() ? ImproveStop::time : ImproveStop::stuck;
   return counts;
 }

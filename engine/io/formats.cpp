@@ -155,8 +155,9 @@ std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc) {
     loops.push_back({plc.triangles[i], attribute_of(plc.triangle_markers, i), nullptr,
                      plc.triangle_numbers.empty() ? static_cast<std::uint32_t>(i) : plc.triangle_numbers[i]});
   for (const plc::PolygonFacet& facet : plc.polygon_facets) {
-    const bool none = facet.polygons.empty();
-    loops.push_back({none ? std::span<const std::uint32_t>() : facet.polygons[0], facet.marker, &facet, facet.number});
+    const bool is_empty = facet.polygons.empty();
+    loops.push_back(
+        {is_empty ? std::span<const std::uint32_t>() : facet.polygons[0], facet.marker, &facet, facet.number});
   }
   if (!plc.polygon_facets.empty() || !plc.triangle_numbers.empty())
     std::ranges::stable_sort(loops, {}, &FacetLoop::number);

@@ -86,7 +86,7 @@ class RegionFlood {
   }
 
   /// The least labeled cell behind a wall that is not open on its side: the front has filled that side, so the labeled
-  /// part leaks into what the front has replaced. `no_cell` if there is none.
+  /// part leaks into what the front has replaced. `none` if there is none.
   std::uint32_t leak() const { return leak_; }
 
   std::size_t bytes() const { return bytes_of(is_reached_); }
@@ -132,7 +132,7 @@ class RegionFlood {
   const FaceBits& bits_;
   RawVector<RegionId>& region_;
   RawVector<std::uint8_t> is_reached_;  ///< by cell; stays in the cache, unlike the regions
-  std::uint32_t leak_ = delaunay::no_cell;
+  std::uint32_t leak_ = none;
   const SetBits set_bits_;
 };
 
@@ -166,7 +166,7 @@ RawVector<RegionId> label_cells(const plc::Plc& plc, const delaunay::Delaunay& d
   std::uint32_t ghost = 0;
   while (d.is_dead(ghost) || !d.is_ghost(ghost)) ++ghost;
   if (!region[ghost].is_none()) refuse(plc, d, ghost);
-  if (flood.leak() != delaunay::no_cell) refuse(plc, d, flood.leak());
+  if (flood.leak() != none) refuse(plc, d, flood.leak());
   return region;
 }
 

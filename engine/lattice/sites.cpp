@@ -38,17 +38,15 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
 }
 
 /// A node, and those beyond its upper sides: entry i is one side length further along the axes whose bits i has. They
-/// have the level of the node, or are coarser leaves; `no_node` beyond the root.
+/// have the level of the node, or are coarser leaves; `none` beyond the root.
 using Upward = std::array<std::uint32_t, 8>;
-
-constexpr std::uint32_t no_node = 0xFFFFFFFFu;
 
 Upward upward_of_child(const Octree& tree, const Upward& parent, std::uint32_t child) {
   Upward result;
   for (std::uint32_t i = 0; i < 8; ++i) {
     // Where both bits are set, the way leads out of the parent.
     const std::uint32_t beyond = parent[child & i];
-    const bool is_end = beyond == no_node || tree.nodes[beyond].is_leaf();
+    const bool is_end = beyond == none || tree.nodes[beyond].is_leaf();
     result[i] = is_end ? beyond : tree.nodes[beyond].first_child + (child ^ i);
   }
   return result;
@@ -56,7 +54,7 @@ Upward upward_of_child(const Octree& tree, const Upward& parent, std::uint32_t c
 
 /// The nodes of a tree that has been cut off at the top, in Morton order.
 std::vector<Upward> cut_off_top(const Octree& tree, std::size_t least_nodes) {
-  std::vector<Upward> nodes = {{0, no_node, no_node, no_node, no_node, no_node, no_node, no_node}};
+  std::vector<Upward> nodes = {{0, none, none, none, none, none, none, none}};
   for (bool grows = true; grows && nodes.size() < least_nodes;) {
     std::vector<Upward> next;
     for (const Upward& node : nodes) {
@@ -97,7 +95,7 @@ struct SiteLists {
 
  private:
   static bool is_coarser(const Octree& tree, const OctreeNode& node, std::uint32_t other) {
-    return other != no_node && tree.nodes[other].level < node.level && tree.nodes[other].place != NodePlace::outside;
+    return other != none && tree.nodes[other].level < node.level && tree.nodes[other].place != NodePlace::outside;
   }
 };
 

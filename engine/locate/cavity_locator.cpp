@@ -104,8 +104,6 @@ class PiercedCellSearch {
   }
 
  private:
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
-
   struct Visit {
     std::uint32_t last = none;   ///< the missing face that was the last to visit the cell
     std::uint32_t owner = none;  ///< the first that met the cell
@@ -274,9 +272,9 @@ CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facet
   const auto add_delaunay_face = [&](std::uint32_t triangle, std::uint32_t code) {
     const std::uint32_t above = cavity_of_cell(delaunay::cell_of(code)),
                         below = cavity_of_cell(delaunay::cell_of(delaunay.across(code)));
-    if (above != no_cavity) faces[above].push_back(triangle);
-    if (below != no_cavity && below != above) faces[below].push_back(triangle);
-    if (above != no_cavity || below != no_cavity) triangles_.push_back(triangle);
+    if (above != none) faces[above].push_back(triangle);
+    if (below != none && below != above) faces[below].push_back(triangle);
+    if (above != none || below != none) triangles_.push_back(triangle);
   };
   if (!missing_.empty()) {
     for (std::uint32_t i = 0; i < codes.size(); ++i) {
@@ -310,12 +308,12 @@ const OctreeLocator* CavityLocator::chamber(std::uint32_t cavity, RegionId regio
 
 std::uint32_t CavityLocator::cavity_of_cell(std::uint32_t cell) const {
   const std::uint32_t* part = pierced_.part_of.find(cell);
-  return part == nullptr ? no_cavity : *part;
+  return part == nullptr ? none : *part;
 }
 
 std::uint32_t CavityLocator::cavity_of_triangle(std::uint32_t triangle) const {
   const auto found = std::lower_bound(missing_.begin(), missing_.end(), triangle);
-  return found == missing_.end() || *found != triangle ? no_cavity : pierced_.part_of_face[found - missing_.begin()];
+  return found == missing_.end() || *found != triangle ? none : pierced_.part_of_face[found - missing_.begin()];
 }
 
 }  // namespace ccdt::locate

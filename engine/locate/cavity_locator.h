@@ -36,8 +36,6 @@ struct PiercedCells {
 /// the sphere of a face belong to other regions.
 class CavityLocator {
  public:
-  static constexpr std::uint32_t no_cavity = 0xFFFFFFFFu;
-
   /// \param facets  of the PLC
   /// \param codes   the Delaunay faces by their codes in the cell above; `no_neighbor` entries are searched again
   CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,

@@ -180,7 +180,7 @@ LargeVector<Cell> join_tetrahedra(const TetMesh& mesh, RawVector<std::uint32_t> 
   const std::size_t cell_count = cells.size(), count = sources.size();
   if (cell_count < count) cells.resize(count);
   constexpr Tetrahedron no_neighbors = {no_neighbor, no_neighbor, no_neighbor, no_neighbor};
-  constexpr std::uint32_t not_in_mesh = delaunay::no_cell;
+  constexpr std::uint32_t not_in_mesh = none;
   RawVector<std::uint32_t> tetrahedron_of(cell_count);
   parallel_fill(std::span(tetrahedron_of), not_in_mesh);
   parallel_for(count, grain, [&](std::size_t i) {

@@ -50,8 +50,6 @@ using Table = HashTable<std::uint64_t, std::uint32_t>;
 ///
 /// The two tables are updated with every change of the arrays.
 struct Triangulation {
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
-
   std::vector<std::array<VertexId, 3>> triangles;
   std::vector<std::array<std::uint32_t, 3>> neighbors;  ///< `none` across a border edge
   std::vector<std::array<bool, 3>> constrained;         ///< the edge must stay; the same seen from both sides
@@ -122,8 +120,6 @@ struct TriangulationResult {
 // ---- Steps ----------------------------------------------------------------------------------------------------------
 // The planar algorithms are made of these. They change triangles, keep neighbors, constraints and tables up to date,
 // and use no geometry.
-
-constexpr std::uint32_t none = Triangulation::none;
 
 constexpr std::uint32_t next_corner(std::uint32_t corner) {
   return corner == 2 ? 0 : corner + 1;

@@ -87,7 +87,7 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
         for (auto e = static_cast<std::uint32_t>(begin); e < end; ++e) {
           if (is_inner[e]) continue;
           const std::uint32_t s = parts.match.segment_of[e];
-          const int marker = s == EdgeTable::none ? 0 : parts.segments.markers[s];
+          const int marker = s == none ? 0 : parts.segments.markers[s];
           std::uint32_t face = no_face;
           for (const std::uint32_t t : parts.edges.around(e)) face = std::min(face, parts.triangles.faces[t]);
           segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e),

@@ -127,10 +127,10 @@ std::uint32_t EdgeTable::find(VertexId a, VertexId b) const {
 
 SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges) {
   SegmentMatch match;
-  match.segment_of.assign(edges.size(), EdgeTable::none);
+  match.segment_of.assign(edges.size(), none);
   for (std::uint32_t s = 0; s < segments.size(); ++s) {
     const std::uint32_t e = edges.find(segments.ends[s][0], segments.ends[s][1]);
-    if (e == EdgeTable::none)
+    if (e == none)
       match.loose.push_back(s);
     else
       match.segment_of[e] = s;

@@ -109,8 +109,6 @@ struct EdgeTable {
                             ///< as above; clear ones by `find_facets`, the others, except within one facet, by
                             ///< `sort_around_edges`
 
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
-
   std::uint32_t size() const { return static_cast<std::uint32_t>(ends.size()); }
   std::span<const std::uint32_t> sides_around(std::uint32_t edge) const {
     return {sides.data() + first[edge], first[edge + 1] - first[edge]};
@@ -128,7 +126,7 @@ EdgeTable make_edge_table(std::span<const VertexTriple> triangles);
 
 /// Which edges are segments of the input, and which segments are not edges.
 struct SegmentMatch {
-  std::vector<std::uint32_t> segment_of;  ///< of each edge: the segment that it is, or `EdgeTable::none`
+  std::vector<std::uint32_t> segment_of;  ///< of each edge: the segment that it is, or `none`
   std::vector<std::uint32_t> loose;       ///< the segments that are not edges
 };
 

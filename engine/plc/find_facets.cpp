@@ -15,7 +15,6 @@ namespace ccdt::plc {
 
 namespace {
 
-constexpr std::uint32_t none = EdgeTable::none;
 constexpr std::size_t grain = 4096;  // of loops on several threads
 
 struct Plane {

@@ -30,7 +30,7 @@ struct FacetPatches {
 /// \param vertices    in grid units
 /// \param triangles   two corners of a triangle may be exchanged
 /// \param edges       follow them, and get their clear `turns`
-/// \param segment_of  of each edge: the segment of the input that it is, or `EdgeTable::none`
+/// \param segment_of  of each edge: the segment of the input that it is, or `none`
 /// \param tolerances  of the triangles, in grid units; their vertices are this near to the plane of their patch
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, EdgeTable& edges,
                          std::span<const std::uint32_t> segment_of, std::span<const double> tolerances);

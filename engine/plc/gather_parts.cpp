@@ -209,7 +209,7 @@ class FacetTriangulator {
       const auto& [a, b, c] = t.triangles[i];
       add_triangle(a, b, c);
       for (std::uint32_t k = 0; k < 3; ++k)
-        if (t.constrained[i][k] && t.neighbors[i][k] != planar::Triangulation::none && t.neighbors[i][k] > i)
+        if (t.constrained[i][k] && t.neighbors[i][k] != none && t.neighbors[i][k] > i)
           segments_.add(t.triangles[i][(k + 1) % 3], t.triangles[i][(k + 2) % 3], 0);
     }
     plane_.seeds = {};

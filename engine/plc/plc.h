@@ -13,7 +13,7 @@
 namespace ccdt::plc {
 
 /// A triangle is no face of a simplicial complex, or that is not known.
-inline constexpr std::uint32_t no_face = 0xFFFFFFFFu;
+inline constexpr std::uint32_t no_face = none;
 
 /// A segment of the PLC: a straight edge that the mesh must contain as a chain of edges.
 struct Segment {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/geometry/box_tree.h"
@@ -238,9 +239,13 @@ std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::
   const BoxTree tree(boxes_of(points));
   const std::size_t first_in_the_way = avoided == Avoided::nothing ? 0 : surface.delaunay.vertices.size();
   Harm harm(points, tree, plc, surface, avoided);
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0;; ++round) {
     const std::vector<PieceEnds> costly = harm.costly_edges();
     if (costly.empty()) break;
+    if (round == most_rounds) {
+      ++work_done.rounds_of_room;
+      break;
+    }
     std::optional<ProtectedDelaunay> split = with_split(costly, plc, strategy, surface, progress);
     if (!split) break;
     Harm less(points, tree, plc, *split, Avoided::nothing);

@@ -12,8 +12,6 @@
 namespace ccdt::protection {
 namespace {
 
-constexpr std::uint32_t no_segment = 0xFFFFFFFFu;
-
 /// From this level on, a piece is not split close to its ends. Levels of 4, 8 and 12 cost about the same number of
 /// splits.
 constexpr std::uint32_t most_splits_at_feet = 8;
@@ -89,7 +87,7 @@ EdgeSplitter::EdgeSplitter(const plc::Plc& plc, Protection strategy, delaunay::D
       d_(delaunay),
       insertion_(delaunay),
       search_(delaunay),
-      segment_of_(delaunay.vertices.size() - plc.vertices.size(), no_segment),
+      segment_of_(delaunay.vertices.size() - plc.vertices.size(), none),
       most_vertices_(delaunay.vertices.size() + most_splits(delaunay.vertices.size())) {
   for (std::uint32_t s = 0; s < chains.size(); ++s)
     for (std::size_t i = 1; i + 1 < chains[s].size(); ++i) segment_of_[chains[s][i].vertex - plc.vertices.size()] = s;
@@ -169,8 +167,8 @@ SplitPlace EdgeSplitter::split_place(const Subsegment& piece, std::uint32_t encr
   const double length = std::sqrt(squared_length(d_.point(ends[1]) - first));
   const double from = length * piece.from.fraction / whole_segment, to = length * piece.to.fraction / whole_segment;
   const std::uint32_t other =
-      encroaching < plc_.vertices.size() ? no_segment : segment_of_[encroaching - plc_.vertices.size()];
-  if (other != no_segment) {
+      encroaching < plc_.vertices.size() ? none : segment_of_[encroaching - plc_.vertices.size()];
+  if (other != none) {
     // The vertex is on a segment that meets this one. The split is on its shell, so that the two do not split each
     // other forever.
     const double margin = length * std::min(usual_step, (piece.to.fraction - piece.from.fraction) / 2) / whole_segment;

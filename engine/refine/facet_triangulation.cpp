@@ -140,7 +140,7 @@ WalkEnd FacetTriangulation::walk(std::uint32_t from, VertexId to) const {
     for (int i = 0; i < 3; ++i) {
       const Side side{triangle, static_cast<std::uint32_t>(i + steps) % 3};
       if (signs[side.corner] >= 0) continue;
-      const bool is_wall = planar::is_constrained(t_, side) || planar::neighbor(t_, side) == planar::none;
+      const bool is_wall = planar::is_constrained(t_, side) || planar::neighbor(t_, side) == none;
       if (is_wall) return {triangle, side};
       if (!exit) exit = side;
     }
@@ -155,7 +155,7 @@ bool FacetTriangulation::insert(VertexId v, std::uint32_t triangle) {
   if (zeros > 1) return false;
   if (zeros == 1) {
     const Side side{triangle, static_cast<std::uint32_t>(std::ranges::find(signs, 0) - signs.begin())};
-    if (planar::is_constrained(t_, side) || planar::neighbor(t_, side) == planar::none) return false;
+    if (planar::is_constrained(t_, side) || planar::neighbor(t_, side) == none) return false;
     planar::split_side(t_, side, v, plane_);
     return true;
   }

@@ -38,7 +38,7 @@ class FacetPlane {
 
 /// Where a walk toward a point ended: in a triangle that contains it, or at an edge that it must not cross.
 struct WalkEnd {
-  std::uint32_t triangle = planar::none;  ///< none: the walk gave up
+  std::uint32_t triangle = none;  ///< none: the walk gave up
   std::optional<planar::Side> wall;
 };
 

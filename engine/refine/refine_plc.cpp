@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/geometry/balls.h"
@@ -125,8 +126,6 @@ class Refiner {
   }
 
  private:
-  static constexpr std::uint32_t none = 0xFFFFFFFFu;
-
   /// The place where a vertex was added.
   struct PlaceOfVertex {
     std::uint32_t segment = none, fraction = 0;
@@ -147,7 +146,7 @@ class Refiner {
       for (const auto& t : plc_.triangles_of(plc_.facets[f])) {
         for (int i = 0; i < 3; ++i) {
           const std::uint32_t s = segment_of_edge_.find(t[i], t[(i + 1) % 3]);
-          if (s == EdgeMap::none) continue;
+          if (s == none) continue;
           segments.push_back(plc_.segments[s].ends);
           if (facets_of_segment_[s].empty() || facets_of_segment_[s].back() != f) facets_of_segment_[s].push_back(f);
         }
@@ -311,9 +310,9 @@ class Refiner {
     const VertexId v(points_.size());
     points_.push_back(*p);
     const WalkEnd end = f.walk(triangle, v);
+    if (!end.wall && end.triangle == none) ++work_done.refinement_walks;
     const std::optional<Side> wall = end.wall ? end.wall : encroached(facet, end.triangle, v);
-    if (wall || end.triangle == planar::none || is_too_near(facet, end.triangle, v, wanted) ||
-        !f.insert(v, end.triangle)) {
+    if (wall || end.triangle == none || is_too_near(facet, end.triangle, v, wanted) || !f.insert(v, end.triangle)) {
       points_.pop_back();
       return wall && halve(planar::edge_start(f.triangulation(), *wall), planar::edge_end(f.triangulation(), *wall));
     }
@@ -332,8 +331,7 @@ class Refiner {
       visit(cavity_[i]);
       for (std::uint32_t corner = 0; corner < 3; ++corner) {
         const std::uint32_t next = t.neighbors[cavity_[i]][corner];
-        if (next == planar::none || t.constrained[cavity_[i]][corner] || std::ranges::count(cavity_, next) > 0)
-          continue;
+        if (next == none || t.constrained[cavity_[i]][corner] || std::ranges::count(cavity_, next) > 0) continue;
         const auto& [a, b, c] = t.triangles[next];
         if (facets_[facet].plane().incircle(a, b, c, v) > 0) cavity_.push_back(next);
       }
@@ -343,7 +341,7 @@ class Refiner {
   /// The edge of a segment that the vertex would encroach on most.
   std::optional<Side> encroached(std::uint32_t facet, std::uint32_t triangle, VertexId v) {
     std::optional<Side> worst;
-    if (triangle == planar::none) return worst;
+    if (triangle == none) return worst;
     double least = encroaching_cosine;
     const planar::Triangulation& t = triangulation(facet);
     visit_cavity(facet, triangle, v, [&](std::uint32_t in_cavity) {
@@ -391,12 +389,12 @@ class Refiner {
       std::vector<planar::Edge> segments;
       for (const auto& t : its_triangles)
         for (int i = 0; i < 3; ++i)
-          if (segment_of_edge_.find(t[i], t[(i + 1) % 3]) != EdgeMap::none) segments.push_back({t[i], t[(i + 1) % 3]});
+          if (segment_of_edge_.find(t[i], t[(i + 1) % 3]) != none) segments.push_back({t[i], t[(i + 1) % 3]});
       FacetTriangulation triangulation(its_triangles, facet.exactly_flat, segments, plc_.vertices);
       std::uint32_t near = 0;
       for (const VertexId v : vertices_of[f]) {
         const WalkEnd end = triangulation.walk(near, v);
-        triangulation.insert(v, end.wall || end.triangle == planar::none ? triangulation.find(v) : end.triangle);
+        triangulation.insert(v, end.wall || end.triangle == none ? triangulation.find(v) : end.triangle);
         near = triangulation.triangulation().triangle_of_vertex.get(v, 0);
       }
       plc_.add(facet, triangulation.triangulation().triangles);

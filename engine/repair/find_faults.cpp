@@ -220,7 +220,7 @@ void find_inward_facets(const Plc& plc, const std::vector<plc::VertexTriple>& ou
   for (std::uint32_t i = 0; i < given.size(); ++i) {
     const auto& [a, b, c] = given.corners[i];
     const FaceMap::Found found = faces.find(a, b, c);
-    if (found.index == FaceMap::none || !found.faces_the_other_way) continue;
+    if (found.index == none || !found.faces_the_other_way) continue;
     if (!std::exchange(is_known[given.numbers[i]], true))
       list.add([&] { return place_of(plc, given.corners[i], {given.numbers[i]}); });
   }

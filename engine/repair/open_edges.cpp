@@ -75,7 +75,7 @@ std::uint32_t triangle_at(const plc::EdgeTable& edges, VertexId a, VertexId b) {
 
 bool is_closed_by_an_edge(const std::vector<VertexId>& chain, const plc::EdgeTable& edges, Rims which) {
   const std::uint32_t e = edges.find(chain.front(), chain.back());
-  return chain.size() > 2 && e != plc::EdgeTable::none && (which == Rims::all || edges.sides_around(e).size() == 2);
+  return chain.size() > 2 && e != none && (which == Rims::all || edges.sides_around(e).size() == 2);
 }
 
 }  // namespace ccdt::repair

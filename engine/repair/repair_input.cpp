@@ -104,7 +104,7 @@ std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t v
   std::size_t turned = 0;
   for (plc::VertexTriple& corners : triangles) {
     const FaceMap::Found found = faces.find(corners[0], corners[1], corners[2]);
-    if (found.index == FaceMap::none || !found.faces_the_other_way) continue;
+    if (found.index == none || !found.faces_the_other_way) continue;
     std::swap(corners[1], corners[2]);
     ++turned;
   }

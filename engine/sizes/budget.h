@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/count_work.h"
 #include "engine/plc/plc.h"
 #include "engine/sizes/size_field.h"
 
@@ -24,6 +25,7 @@ inline double affordable_triangles(double even) {
 template <class IsAffordable>
 double least_affordable(double least, double largest, const IsAffordable& is_affordable) {
   if (is_affordable(least)) return least;
+  ++work_done.feature_triangles;
   for (int i = 0; i < 5; ++i) {
     const double middle = std::sqrt(least * largest);
     (is_affordable(middle) ? largest : least) = middle;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/geometry/closest_point.h"
@@ -74,7 +75,7 @@ class Strips {
       const Point3 normal = area_vector({point(t[0]), point(t[1]), point(t[2])});
       for (int i = 0; i < 3; ++i) {
         const VertexId a = t[i], b = t[(i + 1) % 3];
-        if (segment_of_edge_.find(a, b) != EdgeMap::none)
+        if (segment_of_edge_.find(a, b) != none)
           edges.push_back({{a, b}, normalized(cross(normal, point(b) - point(a)))});
       }
     }
@@ -199,6 +200,7 @@ std::vector<SizedPlace> measure_thin_places(const plc::Plc& plc, double largest)
     strips.measure(least, places);
     walls.measure(least, places);
   }
+  if (strips.open() + walls.open() > 0) ++work_done.thin_places;
   limit_from_below(places, least);
   for (const plc::Segment& s : plc.segments)
     add_short_segment(plc.vertices[s.ends[0]], plc.vertices[s.ends[1]], largest, places);

@@ -7,11 +7,7 @@
 #include "engine/geometry/closest_point.h"
 
 namespace ccdt::sizes {
-namespace {
-
-constexpr std::uint32_t no_triangle = 0xFFFFFFFFu;
-
-}  // namespace
+namespace {}  // namespace
 
 Walls::Walls(const plc::Plc& plc, WallRules rules)
     : plc_(plc), rules_(std::move(rules)), facets_of_vertex_(plc.vertices.size()), met_by_(plc.facets.size()) {
@@ -20,7 +16,7 @@ Walls::Walls(const plc::Plc& plc, WallRules rules)
     for (const auto& t : plc.triangles_of(plc.facets[f])) {
       const Triangle corners = {plc.vertices[t[0]], plc.vertices[t[1]], plc.vertices[t[2]]};
       take_pieces(corners, f);
-      open_.push_back({corners, f, {no_triangle, no_triangle}});
+      open_.push_back({corners, f, {none, none}});
       for (const VertexId v : t)
         if (facets_of_vertex_[v].empty() || facets_of_vertex_[v].back() != f) facets_of_vertex_[v].push_back(f);
     }
@@ -110,7 +106,7 @@ void Walls::look(FacetId facet, const Point3& normal, int side, const Point3& p,
     nearest = found;
     sample.near[side] = number;
   };
-  if (sample.near[side] != no_triangle) try_triangle(sample.near[side]);
+  if (sample.near[side] != none) try_triangle(sample.near[side]);
   const auto distance = [&](const Box& box, double) {
     const double height = dot(componentwise_max(direction, {}), box.high - p) +
                           dot(componentwise_min(direction, {}), box.low - p);  // of its highest corner

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "engine/base/count_work.h"
 #include "engine/steiner/loosen_star.h"
 #include "engine/steiner/plan_vertex_removal.h"
 
@@ -96,6 +97,7 @@ class SteinerRemover {
     give_turns(few_shakes);
     most_turns = turn + left.size() + more_turns;
     while (!left.empty() && turn + left.size() <= most_turns) give_turns(many_shakes);
+    work_done.removal_turns += left.size();
   }
 
   /// Changes the cells around a vertex until it can be removed. \return was it?

@@ -251,7 +251,7 @@ class SurfaceCutter {
       surface_.features.push_back(std::move(feature));
     }
     for (std::uint32_t s = 0; s < segments_.size(); ++s)
-      if (edges_.find(segments_.ends[s][0], segments_.ends[s][1]) == plc::EdgeTable::none)
+      if (edges_.find(segments_.ends[s][0], segments_.ends[s][1]) == none)
         surface_.features.push_back({{segments_.ends[s][0], segments_.ends[s][1]}, {}, true, segments_.markers[s]});
   }
 

@@ -12,9 +12,6 @@
 
 namespace ccdt::surface {
 
-/// Instead of the number of a point, triangle, patch or knot: there is none.
-inline constexpr std::uint32_t none = 0xFFFFFFFFu;
-
 /// An edge whose shape remeshing keeps.
 struct FeatureEdge {
   std::array<std::uint32_t, 2> ends;     ///< points

@@ -134,6 +134,7 @@ void improve_worst_triangles(WorkingMesh& m) {
       any = true;
     }
   }
+  if (any) ++work_done.remeshing_sweeps;
 }
 
 /// The rounds of remeshing, and the improvement at their end.
@@ -293,6 +294,7 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
       const std::vector<SizedPlace> places = thinned(defects.places, result, options.edge_length);
       if (halving == most_halvings) {
         if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
+        ++work_done.remeshing_halvings;
         freeze(original, places, std::ldexp(1, attempt), frozen);
         break;
       }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
@@ -155,7 +156,9 @@ bool PolyhedronFiller::search() {
   edges_.fill(0);
   for (const CornerTriangle& t : hull_) add_front(t);
   steps_left_ = most_search_steps;
-  return search_on();
+  const bool found = search_on();
+  if (steps_left_ < 0) ++work_done.filling_steps;
+  return found;
 }
 
 void PolyhedronFiller::find_free_edges() {

@@ -64,6 +64,12 @@ TEST(RunSchema, NamesTheWorkOfEveryStage) {
     EXPECT_EQ(names_in(schema["properties"][figure]["properties"]), stages) << figure;
 }
 
+TEST(RunSchema, NamesTheLimits) {
+  std::set<std::string> limits;
+  for (const WorkCount& limit : limit_counts) limits.insert(limit.name);
+  EXPECT_EQ(names_in(published().all().at("ccdt.run/1")["properties"]["limits_reached"]["properties"]), limits);
+}
+
 template <class Enum>
 void expect_values(const char* option) {
   std::set<std::string> names;

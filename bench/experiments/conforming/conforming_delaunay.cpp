@@ -208,7 +208,7 @@ class Conformer {
       split(*end.wall);
       return true;
     }
-    if (end.triangle == planar::none) return false;
+    if (end.triangle == none) return false;
     const std::vector<planar::Side> encroached = encroached_sides(t, *place);
     std::ranges::for_each(encroached, split);
     if (encroached.empty()) added.push_back({result_.faces.facet[face], *place});
@@ -220,7 +220,7 @@ class Conformer {
     for (std::uint32_t triangle = 0; triangle < t.triangles.size(); ++triangle)
       for (std::uint32_t corner = 0; corner < 3; ++corner) {
         const planar::Side side{triangle, corner};
-        const bool is_wall = planar::is_constrained(t, side) || planar::neighbor(t, side) == planar::none;
+        const bool is_wall = planar::is_constrained(t, side) || planar::neighbor(t, side) == none;
         const Point3 &a = points_[planar::edge_start(t, side)], &b = points_[planar::edge_end(t, side)];
         if (is_wall && dot(a - p, b - p) < 0) sides.push_back(side);
       }

@@ -74,6 +74,17 @@ void expect_work(const std::string& text, const std::string& expected) {
 TEST(Work, HasAnotherNameForEachCount) {
   std::set<std::string> names;
   for (const WorkCount& c : work_counts) EXPECT_TRUE(names.insert(c.name).second) << c.name;
+  for (const WorkCount& c : limit_counts) EXPECT_TRUE(names.insert(c.name).second) << c.name;
+}
+
+TEST(Work, CountsTheLimitThatKeepsTheTrianglesOfAThinPlateLong) {
+  MeshOptions options;
+  options.surface = SurfaceRule::refine, options.lattice = Lattice::none, options.edge_length = 0.2;
+  const auto limits = [&](double thickness) {
+    return mesh_plc(plc_test::box({0, 0, 0}, {1, 1, thickness}), options).costs[Stage::refine].work.feature_triangles;
+  };
+  EXPECT_EQ(limits(0.5), 0u);
+  EXPECT_EQ(limits(1e-3), 1u);
 }
 
 TEST(Work, IsAddedUpButTheLargestStaysTheLargest) {

@@ -114,8 +114,8 @@ struct Case {
   Cube cube;
   improve::ImproveOptions options;
   const std::vector<improve::Freedom>& freedom() const {
-    static const std::vector<improve::Freedom> none;
-    return options.boundary == improve::BoundaryRule::slide ? cube.freedom : none;
+    static const std::vector<improve::Freedom> no_freedom;
+    return options.boundary == improve::BoundaryRule::slide ? cube.freedom : no_freedom;
   }
 };
 

@@ -160,7 +160,6 @@ std::vector<CellId> apply_change(tets::CellComplex& x, tets::Change change) {
 }
 
 LargeVector<delaunay::Cell> unjoined_cells(const mesh::TetMesh& mesh) {
-  constexpr auto none = delaunay::no_neighbor;
   LargeVector<delaunay::Cell> cells;
   for (const Tetrahedron& t : mesh.tetrahedra) cells.push_back({t, {none, none, none, none}});
   return cells;

@@ -26,7 +26,7 @@ struct Model {
   std::vector<Triangle> faces = {};  ///< on facets; missing faces of the boundary become facets of their own
   std::vector<std::uint32_t> facet_of_face = {};
   std::vector<Edge> segments = {};
-  std::uint32_t first_interior = VertexId::none_value;  ///< none is interior
+  std::uint32_t first_interior = none;  ///< none is interior
 };
 
 std::vector<Point3> points_of(const tets::CellComplex& complex);

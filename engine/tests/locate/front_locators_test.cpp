@@ -120,8 +120,8 @@ void expect_cells_of_missing_faces(const Stages& stages, unsigned seed) {
   std::size_t inside = 0;
   for (std::uint32_t f = 0; f < stages.codes.size(); ++f) {
     const std::uint32_t cavity = locator.cavity_of_triangle(f);
-    EXPECT_EQ(cavity == locate::CavityLocator::no_cavity, stages.codes[f] != delaunay::no_neighbor);
-    if (cavity == locate::CavityLocator::no_cavity) continue;
+    EXPECT_EQ(cavity == none, stages.codes[f] != delaunay::no_neighbor);
+    if (cavity == none) continue;
     const auto& t = stages.facets.triangles[f];
     const double s = part(random), r = part(random) * (1 - s);
     const Point3 p = s * d.point(t[0]) + r * d.point(t[1]) + (1 - s - r) * d.point(t[2]);

@@ -111,7 +111,7 @@ inline bool has_constrained(const planar::Triangulation& t, VertexId a, VertexId
 
 /// The same edge seen from its other triangle; nothing at the border.
 inline std::optional<planar::Side> side_across(const planar::Triangulation& t, planar::Side side) {
-  if (planar::neighbor(t, side) == planar::none) return std::nullopt;
+  if (planar::neighbor(t, side) == none) return std::nullopt;
   return planar::other_side(t, side);
 }
 
@@ -137,7 +137,7 @@ inline void expect_sound(const planar::Triangulation& t, const IntegerPlane& pla
     EXPECT_EQ(plane.orient(a, b, c), 1);
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const VertexId from = t.triangles[i][(corner + 1) % 3], to = t.triangles[i][(corner + 2) % 3];
-      const auto& around = t.triangles[t.triangle_of_vertex.get(from, planar::none)];
+      const auto& around = t.triangles[t.triangle_of_vertex.get(from, none)];
       EXPECT_NE(std::find(around.begin(), around.end(), from), around.end());
       if (const auto other = side_across(t, {i, corner})) {
         EXPECT_EQ(t.constrained[other->triangle][other->corner], t.constrained[i][corner]);

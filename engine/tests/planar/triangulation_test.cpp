@@ -35,8 +35,8 @@ std::vector<IntegerPoint> square(std::int64_t low, std::int64_t high) {
 TEST(PlanarFromTriangles, FindsNeighborsBordersAndConstraints) {
   const planar::Triangulation t =
       planar::from_triangles(Triangles{triangle(70, 10, 20), triangle(70, 20, 30)}, Edges{edge(30, 20)});
-  EXPECT_EQ(t.neighbors[0], (std::array{planar::Triangulation::none, 1u, planar::Triangulation::none}));
-  EXPECT_EQ(t.neighbors[1], (std::array{planar::Triangulation::none, planar::Triangulation::none, 0u}));
+  EXPECT_EQ(t.neighbors[0], (std::array{none, 1u, none}));
+  EXPECT_EQ(t.neighbors[1], (std::array{none, none, 0u}));
   EXPECT_EQ(planar::border_edges(t), (Edges{edge(10, 20), edge(10, 70), edge(20, 30), edge(30, 70)}));
   EXPECT_EQ(constrained_edges(t), Edges{edge(20, 30)});
   EXPECT_TRUE(planar::find_edge(t, VertexId(20u), VertexId(70u)));

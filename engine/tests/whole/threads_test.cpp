@@ -113,7 +113,7 @@ TEST(Threads, LeaveVerticesThatAreTooFewForParts) {
     delaunay::InsertionMarks marks;
     delaunay::PartedInsertion parted(d, marks);
     EXPECT_EQ(parted.insert(added, {}, 0, added.size(), {}), added);
-    EXPECT_EQ(d.cell_at[first], delaunay::no_cell);
+    EXPECT_EQ(d.cell_at[first], none);
   });
 }
 
