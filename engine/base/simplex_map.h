@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/index.h"
 #include "engine/base/parallel.h"
 #include "engine/base/sort_in_buckets.h"
 
