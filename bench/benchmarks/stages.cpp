@@ -6,14 +6,13 @@
 #include <memory>
 #include <utility>
 
-#include "engine/folds/protect_facets.h"
+#include "engine/facets/facet_mesh.h"
 #include "engine/front/advance_front.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/io/plc_files.h"
 #include "engine/label/label_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/plc/build_plc.h"
-#include "engine/plc/gather_parts.h"
 #include "engine/protection/make_room.h"
 #include "models/flatten.h"
 #include "models/solids.h"
@@ -58,16 +57,14 @@ Stages make_stages(const plc::InputPlc& input, const Density& density) {
   Stages s;
   s.plc = plc::build_plc(input);
   s.input_delaunay = delaunay::build_delaunay(s.plc.vertices);
-  folds::ProtectedSurface folded = folds::protect_facets(
-      s.plc, s.input_delaunay, {}, plc::tolerance_of(s.plc, plc::PlcOptions{}.flatness), protection::Protection::shell);
-  protection::ProtectedDelaunay& surface = folded.delaunay;
+  protection::ProtectedDelaunay surface =
+      protection::protect_edges(s.plc, protection::unprotected(s.plc, s.input_delaunay), protection::Protection::shell);
   s.facets = facets::triangulate_facets(s.plc, surface.chains, surface.delaunay);
   s.lattice = lattice_input(s.plc, surface, s.facets, density);
   lattice::LatticePoints points = lattice::place_lattice_points(
       {s.lattice.vertices, s.lattice.triangles, s.lattice.subsegments}, s.lattice.options);
   keep_only(
-      make_room(points.points, s.plc, protection::Protection::shell, surface, protection::Avoided::smallest_spheres,
-                [&](const auto& its) { return folds::folds_after_splits(s.plc, its, folded); }),
+      make_room(points.points, s.plc, protection::Protection::shell, surface, protection::Avoided::smallest_spheres),
       points);
   s.first_interior = surface.delaunay.vertices.size();
   s.chains = std::move(surface.chains);
@@ -75,6 +72,8 @@ Stages make_stages(const plc::InputPlc& input, const Density& density) {
   s.delaunay = std::move(surface.delaunay);
   insert_points(s.delaunay, points.points, points.later_rounds);
   s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
+  if (facets::follow_interior_vertices(s.plc, s.chains, s.delaunay, s.codes, s.facets))
+    s.codes = front::find_delaunay_faces(s.facets.triangles, s.delaunay);
   s.front = front::advance_front({s.plc, s.facets, s.codes, s.delaunay});
   const RawVector<RegionId> regions = label::label_cells(s.plc, s.delaunay, s.front.open, s.codes);
   s.tetrahedra = sorted(
@@ -120,13 +119,6 @@ Tetrahedra finite_cells(const delaunay::Delaunay& delaunay) {
   for (std::uint32_t c = 0; c < delaunay.cells.size(); ++c)
     if (delaunay.is_finite(c)) cells.push_back(delaunay.cells[c].vertices);
   return cells;
-}
-
-std::vector<Point3> points_of(const delaunay::Delaunay& delaunay) {
-  std::vector<Point3> points;
-  points.reserve(delaunay.vertices.size());
-  for (const delaunay::DelaunayVertex& v : delaunay.vertices) points.push_back(v.point);
-  return points;
 }
 
 double volume_of(const Tetrahedra& tetrahedra, const std::vector<Point3>& points) {

@@ -67,8 +67,6 @@ Tetrahedra sorted(Tetrahedra tetrahedra);
 /// The finite cells.
 Tetrahedra finite_cells(const delaunay::Delaunay& delaunay);
 
-std::vector<Point3> points_of(const delaunay::Delaunay& delaunay);
-
 /// The total volume of tetrahedra.
 double volume_of(const Tetrahedra& tetrahedra, const std::vector<Point3>& points);
 
