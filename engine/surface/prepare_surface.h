@@ -21,8 +21,8 @@ struct PreparedSurface {
 /// Makes of an input what the rule asks for before a PLC is built: triangulates the polygons that are not planar
 /// (`plc::triangulate_bent_facets`), bounds the edge length and remeshes.
 ///
-/// \param options  a length beyond the diagonal of the bounding box becomes that diagonal: it would only make the octree
-///                 of the lattice too large. Length 0: with `SurfaceRule::refine` a fortieth of the diagonal
+/// \param options  A length beyond the diagonal of the bounding box becomes that diagonal: it would only make the
+///                 octree of the lattice too large. Length 0: with `SurfaceRule::refine` a fortieth of the diagonal
 /// \throw InputError, MeshError  as `plc::triangulate_bent_facets` and `remesh_surface`
 /// \throw LimitError             a new surface would have too many vertices
 PreparedSurface prepare_surface(const plc::InputPlc& input, SurfaceRule rule, RemeshOptions options,

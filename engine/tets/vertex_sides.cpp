@@ -8,8 +8,6 @@
 #include "engine/geometry/predicates.h"
 
 namespace ccdt::tets {
-
-
 namespace {
 
 CCDT_ALWAYS_INLINE void load_four(const double* values, Lanes& result) {
