@@ -19,21 +19,27 @@ namespace {
 
 using steps::ProtectedDomain, steps::Run, steps::Tetrahedralization;
 
-/// All stages from a PLC to its constrained Delaunay tetrahedralization.
+/// All stages from an input to its constrained Delaunay tetrahedralization. Where bent facets are in the way, all
+/// starts again from the vertices of the PLC, with their folds protected. Folds of a refined surface would be too many.
+/// So there, all starts again before refinement, with flat facets.
 ///
 /// \param domain  gets all but its tetrahedra
-Tetrahedralization tetrahedralize(steps::TetrahedralizedPlc input, ProtectedDomain& domain, Run& run) {
-  domain.plc = std::move(input.plc);
-  folds::SurfaceProtector protector(domain.plc, std::move(input.delaunay), std::move(input.chains),
+Tetrahedralization tetrahedralize(const InputPlc& input, bool flattens, ProtectedDomain& domain, Run& run) {
+  const bool refines = run.options.surface == SurfaceRule::refine;
+  steps::TetrahedralizedPlc start = steps::make_plc(input, flattens, run);
+  domain.plc = std::move(start.plc);
+  folds::SurfaceProtector protector(domain.plc, std::move(start.delaunay), std::move(start.chains),
                                     plc::tolerance_of(domain.plc, run.options.flatness), run.options.protection);
   for (;;) {
-    steps::protect_domain(protector, domain, run);
     try {
+      steps::protect_domain(protector, domain, run);
       return steps::fill_domain(domain, run);
     } catch (const MeshError&) {
       if (!protector.protect_folds()) throw;
+      if (refines) break;
     }
   }
+  return tetrahedralize(input, true, domain, run);
 }
 
 /// The vertices, regions and counts of the mesh, in the units of the input.
@@ -54,7 +60,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   Run run{options, progress, surface.costs};
   run.options.edge_length = surface.edge_length;
   ProtectedDomain domain;
-  Tetrahedralization t = tetrahedralize(steps::make_plc(surface.changed ? *surface.changed : input, run), domain, run);
+  Tetrahedralization t = tetrahedralize(surface.changed ? *surface.changed : input, false, domain, run);
   steps::improve_mesh(domain, t, run);
   return finish(domain.plc, std::move(t), run);
 }

@@ -156,6 +156,11 @@ void FacetDivider::follow_input(const facets::FacetMesh& faces, std::span<const 
   for (const std::uint32_t face : which) step_[origins[faces.facet[face]].facet] = Step::input;
 }
 
+void FacetDivider::follow_input() {
+  for (std::uint32_t f = 0; f < step_.size(); ++f)
+    if (is_bent(f)) step_[f] = Step::input;
+}
+
 bool FacetDivider::give_way(const std::array<VertexId, 2>& segment) {
   std::vector<std::uint32_t> divided, beside;
   for (std::uint32_t f = 0; f < step_.size(); ++f) {

@@ -45,6 +45,9 @@ class FacetDivider {
   void follow_input(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
                     const std::vector<FacetOrigin>& origins);
 
+  /// Gives all bent facets the triangles of the input.
+  void follow_input();
+
   /// Gives up the divisions in the way of a segment that cannot be protected: the facets with its ends, or if there are
   /// none all divided facets, get the triangles of the input.
   ///

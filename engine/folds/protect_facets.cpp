@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/errors.h"
 #include "engine/folds/find_contacts.h"
 #include "engine/folds/find_folds.h"
 #include "engine/front/find_delaunay_faces.h"
@@ -54,8 +55,11 @@ bool SurfaceProtector::is_protected(const delaunay::Delaunay& delaunay, const pr
   if (!divider_) return true;
   const std::vector<FacetOrigin> origins = divider_->origins();
   const LooseFolds loose = find_loose_folds(plc_, delaunay, chains, faces, codes);
-  if (!protects_folds_)
-    return (loose.touching.empty() && find_contacts(faces, delaunay, codes, origins).empty()) || !protect_folds();
+  if (!protects_folds_) {
+    if (loose.touching.empty() && find_contacts(faces, delaunay, codes, origins).empty()) return true;
+    throw MeshError("facets that are flat only within the tolerance meet", {.file = plc_.name},
+                    "another --flatness may help");
+  }
   divider_->make_grazeable(plc_, loose.segments);
   divider_->divide(faces, loose.faces, origins, delaunay);
   divider_->follow_input(faces, loose.touching, origins);

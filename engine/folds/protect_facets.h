@@ -50,6 +50,7 @@ class SurfaceProtector {
   /// \param delaunay  of all vertices
   /// \param faces     of the facets
   /// \param codes     of the faces, see `front::find_delaunay_faces`
+  /// \throw MeshError  faces meet, and folds are not protected
   bool is_protected(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
                     const facets::FacetMesh& faces, std::span<const std::uint32_t> codes);
 

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "engine/base/errors.h"
+#include "engine/folds/divide_facets.h"
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/refine/refine_plc.h"
 
 namespace ccdt::steps {
@@ -46,9 +48,16 @@ std::vector<Point3> refine_surface(TetrahedralizedPlc& result, Run& run) {
   return points;
 }
 
+plc::Plc flattened(const plc::Plc& plc, const Run& run) {
+  folds::FacetDivider divider(plc, delaunay::build_delaunay(plc.vertices),
+                              plc::tolerance_of(plc, run.options.flatness));
+  divider.follow_input();
+  return divider.divided();
+}
+
 }  // namespace
 
-TetrahedralizedPlc make_plc(const InputPlc& input, Run& run) {
+TetrahedralizedPlc make_plc(const InputPlc& input, bool flattens, Run& run) {
   const plc::PlcOptions flat{run.options.flatness};
   const bool refines = run.options.surface == SurfaceRule::refine;
   plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
@@ -60,6 +69,7 @@ TetrahedralizedPlc make_plc(const InputPlc& input, Run& run) {
     if (delaunay) gathered.triangles.faces = front::find_delaunay_faces(gathered.triangles.corners, *delaunay);
     return {plc::check_plc(input, std::move(gathered), flat, run.progress)};
   });
+  if (flattens) result.plc = run.measured(Stage::plc, [&] { return flattened(result.plc, run); });
   if (refines) delaunay = tetrahedralize_vertices(refine_surface(result, run), run);
   if (!delaunay) delaunay::refuse_flat_points();
   result.delaunay = *std::move(delaunay);

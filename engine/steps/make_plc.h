@@ -17,7 +17,8 @@ struct TetrahedralizedPlc {
 
 /// Puts an input on the grid, checks it, and refines its surface if that is asked for.
 ///
-/// \throw InputError  the input is not a valid PLC
-TetrahedralizedPlc make_plc(const InputPlc& input, Run& run);
+/// \param flattens    before refinement, bent facets are divided into the triangles of the input, so all are exactly
+/// flat \throw InputError  the input is not a valid PLC
+TetrahedralizedPlc make_plc(const InputPlc& input, bool flattens, Run& run);
 
 }  // namespace ccdt::steps

@@ -300,7 +300,9 @@ std::string work_of_front(LocatorKind locator, bool face_protection) {
 
 TEST(WorkOfSmallInputs, FrontWithEachLocator) {
   expect_work(work_of_front(LocatorKind::cavity, true), R"(
-face_check.cells_visited 107
+face_check.box_tree_nodes 35
+face_check.box_pairs 125
+face_check.cells_visited 116
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 10
@@ -316,7 +318,9 @@ front.piercing_tests 143
 front.peak_bytes 8104
 )");
   expect_work(work_of_front(LocatorKind::octree, true), R"(
-face_check.cells_visited 107
+face_check.box_tree_nodes 35
+face_check.box_pairs 125
+face_check.cells_visited 116
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 12
@@ -331,7 +335,9 @@ front.visibility_tests 195
 front.peak_bytes 14560
 )");
   expect_work(work_of_front(LocatorKind::grid, true), R"(
-face_check.cells_visited 107
+face_check.box_tree_nodes 35
+face_check.box_pairs 125
+face_check.cells_visited 116
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 48
@@ -348,7 +354,9 @@ front.peak_bytes 11864
 
 TEST(WorkOfSmallInputs, FrontOverAllFaces) {
   expect_work(work_of_front(LocatorKind::cavity, false), R"(
-face_check.cells_visited 107
+face_check.box_tree_nodes 35
+face_check.box_pairs 125
+face_check.cells_visited 116
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 24
@@ -364,7 +372,9 @@ front.piercing_tests 143
 front.peak_bytes 16392
 )");
   expect_work(work_of_front(LocatorKind::octree, false), R"(
-face_check.cells_visited 107
+face_check.box_tree_nodes 35
+face_check.box_pairs 125
+face_check.cells_visited 116
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 30
