@@ -32,6 +32,7 @@ constexpr auto stage_functions = std::to_array<StageFunction>({{"ccdt::plc::gath
                                                                {"ccdt::cores::insert_points", "delaunay"},
                                                                {"ccdt::front::find_delaunay_faces_again", "face_check"},
                                                                {"ccdt::facets::follow_interior_vertices", "face_check"},
+                                                               {"ccdt::folds::find_touching_faces", "face_check"},
                                                                {"ccdt::folds::find_loose_folds", "face_check"},
                                                                {"ccdt::folds::find_contacts", "face_check"},
                                                                {"ccdt::front::advance_front", "front"},

@@ -43,11 +43,25 @@ class FoldFinder {
   }
 
   LooseFolds find() {
+    look_at_sides([](const AtEdge&) { return true; }, [&](std::span<const AtEdge> around) { look_at(around); });
+    return std::move(loose_);
+  }
+
+  std::vector<std::uint32_t> find_touching() {
+    look_at_sides([&](const AtEdge& side) { return !facet_of(side).exactly_flat && segment_of_.contains(side.edge); },
+                  [&](std::span<const AtEdge> around) { add_touching(around, *segment_of_.find(around[0].edge)); });
+    return std::move(loose_.touching);
+  }
+
+ private:
+  template <class IsWanted, class LookAt>
+  void look_at_sides(const IsWanted& is_wanted, const LookAt& look_at) {
     std::vector<AtEdge> sides;
-    sides.reserve(3 * facets_.triangles.size());
     for (std::uint32_t i = 0; i < facets_.triangles.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        sides.push_back({edge_key(facets_.triangles[i][k], facets_.triangles[i][(k + 1) % 3]), i});
+      for (std::size_t k = 0; k < 3; ++k) {
+        const AtEdge side{edge_key(facets_.triangles[i][k], facets_.triangles[i][(k + 1) % 3]), i};
+        if (is_wanted(side)) sides.push_back(side);
+      }
     for_each_edge_group(sides, [&](std::span<const AtEdge> around) {
       if (around.size() > 1) look_at(around);
     });
@@ -56,10 +70,8 @@ class FoldFinder {
       const auto repeated = std::ranges::unique(*list);
       list->erase(repeated.begin(), repeated.end());
     }
-    return std::move(loose_);
   }
 
- private:
   const plc::Facet& facet_of(const AtEdge& side) const { return plc_.facets[facets_.facet[side.value]]; }
 
   void look_at(std::span<const AtEdge> around) {
@@ -71,13 +83,17 @@ class FoldFinder {
         for (const AtEdge& side : around) loose_.faces.push_back(side.value);
       return;
     }
+    add_touching(around, *segment);
+    if (!plc_.segments[*segment].grazeable && !is_delaunay(around) && is_grazeable(around, true))
+      loose_.segments.push_back(*segment);
+  }
+
+  void add_touching(std::span<const AtEdge> around, std::uint32_t segment) {
     for (std::size_t i = 1; i < around.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
         if (facets_.facet[around[i].value] == facets_.facet[around[j].value] &&
-            !has_segment(facet_of(around[i]), *segment))
+            !has_segment(facet_of(around[i]), segment))
           loose_.touching.insert(loose_.touching.end(), {around[i].value, around[j].value});
-    if (!plc_.segments[*segment].grazeable && !is_delaunay(around) && is_grazeable(around, true))
-      loose_.segments.push_back(*segment);
   }
 
   bool is_delaunay(std::span<const AtEdge> around) const {
@@ -132,6 +148,12 @@ LooseFolds find_loose_folds(const plc::Plc& plc, const delaunay::Delaunay& delau
                             const protection::SegmentChains& chains, const facets::FacetMesh& facets,
                             std::span<const std::uint32_t> codes) {
   return FoldFinder(plc, delaunay, chains, facets, codes).find();
+}
+
+std::vector<std::uint32_t> find_touching_faces(const plc::Plc& plc, const delaunay::Delaunay& delaunay,
+                                               const protection::SegmentChains& chains,
+                                               const facets::FacetMesh& facets) {
+  return FoldFinder(plc, delaunay, chains, facets, {}).find_touching();
 }
 
 bool is_grazeable_fold(const plc::Plc& plc, const plc::Facet& facet, int turn) {

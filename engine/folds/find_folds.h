@@ -26,6 +26,11 @@ LooseFolds find_loose_folds(const plc::Plc& plc, const delaunay::Delaunay& delau
                             const protection::SegmentChains& chains, const facets::FacetMesh& facets,
                             std::span<const std::uint32_t> codes);
 
+/// `LooseFolds::touching` alone, which is faster.
+std::vector<std::uint32_t> find_touching_faces(const plc::Plc& plc, const delaunay::Delaunay& delaunay,
+                                               const protection::SegmentChains& chains,
+                                               const facets::FacetMesh& facets);
+
 /// Is an edge between two faces of a facet grazeable?
 ///
 /// \param turn  the sign of `orient3d` of one face and the apex of the other: positive if they bend up

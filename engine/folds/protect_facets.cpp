@@ -14,11 +14,12 @@ using protection::ProtectedDelaunay;
 
 SurfaceProtector::SurfaceProtector(plc::Plc& plc, delaunay::Delaunay delaunay, protection::SegmentChains chains,
                                    double tolerance, protection::Protection strategy)
-    : plc_(plc), delaunay_(std::move(delaunay)), chains_(std::move(chains)), strategy_(strategy) {
-  if (std::ranges::all_of(plc.facets, &plc::Facet::exactly_flat)) return;
-  undivided_ = plc;
-  divider_.emplace(undivided_, delaunay_, tolerance);
-}
+    : plc_(plc),
+      delaunay_(std::move(delaunay)),
+      chains_(std::move(chains)),
+      tolerance_(tolerance),
+      strategy_(strategy),
+      has_bent_facets_(std::ranges::find(plc.facets, false, &plc::Facet::exactly_flat) != plc.facets.end()) {}
 
 /// Gives up divisions that do not allow to protect the segments.
 ProtectedDelaunay SurfaceProtector::protect_segments(const Progress& progress) {
@@ -26,20 +27,20 @@ ProtectedDelaunay SurfaceProtector::protect_segments(const Progress& progress) {
     try {
       return protection::protect_edges(plc_, protection::unprotected(plc_, delaunay_, chains_), strategy_, progress);
     } catch (const protection::SegmentLimit& limit) {
-      if (!divider_->give_way(limit.ends)) throw;
+      if (!divider_ || !divider_->give_way(limit.ends)) throw;
       plc_ = divider_->divided();
     }
   }
 }
 
 ProtectedDelaunay SurfaceProtector::protect(const Progress& progress) {
-  if (!divider_) {
+  if (!has_bent_facets_) {
     ProtectedDelaunay start = protection::unprotected(plc_, std::move(delaunay_), std::move(chains_));
     return protection::protect_edges(plc_, std::move(start), strategy_, progress);
   }
   for (;;) {
     ProtectedDelaunay surface = protect_segments(progress);
-    if (!protects_folds_) return surface;
+    if (!divider_) return surface;
     const facets::FacetMesh faces = facets::triangulate_facets(plc_, surface.chains, surface.delaunay, progress);
     const auto codes = front::find_delaunay_faces(faces.triangles, surface.delaunay);
     if (is_protected(surface.delaunay, surface.chains, faces, codes)) return surface;
@@ -47,19 +48,31 @@ ProtectedDelaunay SurfaceProtector::protect(const Progress& progress) {
 }
 
 bool SurfaceProtector::protect_folds() {
-  return divider_ && !std::exchange(protects_folds_, true);
+  if (!has_bent_facets_ || divider_) return false;
+  undivided_ = plc_;
+  divider_.emplace(undivided_, delaunay_, tolerance_);
+  return true;
+}
+
+/// Do faces of bent facets meet no other facets?
+bool SurfaceProtector::are_apart(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
+                                 const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) const {
+  std::vector<FacetOrigin> origins;
+  for (std::uint32_t f = 0; f < plc_.facets.size(); ++f) origins.push_back({FacetId(f), !plc_.facets[f].exactly_flat});
+  return find_touching_faces(plc_, delaunay, chains, faces).empty() &&
+         find_contacts(faces, delaunay, codes, origins).empty();
 }
 
 bool SurfaceProtector::is_protected(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
                                     const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) {
-  if (!divider_) return true;
-  const std::vector<FacetOrigin> origins = divider_->origins();
-  const LooseFolds loose = find_loose_folds(plc_, delaunay, chains, faces, codes);
-  if (!protects_folds_) {
-    if (loose.touching.empty() && find_contacts(faces, delaunay, codes, origins).empty()) return true;
+  if (!has_bent_facets_) return true;
+  if (!divider_) {
+    if (are_apart(delaunay, chains, faces, codes)) return true;
     throw MeshError("facets that are flat only within the tolerance meet", {.file = plc_.name},
                     "another --flatness may help");
   }
+  const std::vector<FacetOrigin> origins = divider_->origins();
+  const LooseFolds loose = find_loose_folds(plc_, delaunay, chains, faces, codes);
   divider_->make_grazeable(plc_, loose.segments);
   divider_->divide(faces, loose.faces, origins, delaunay);
   divider_->follow_input(faces, loose.touching, origins);

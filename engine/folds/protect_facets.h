@@ -56,13 +56,16 @@ class SurfaceProtector {
 
  private:
   protection::ProtectedDelaunay protect_segments(const Progress& progress);
+  bool are_apart(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
+                 const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) const;
 
   plc::Plc& plc_;
   delaunay::Delaunay delaunay_;  // these two are moved from if no facet is bent
   protection::SegmentChains chains_;
+  double tolerance_;
   protection::Protection strategy_;
-  bool protects_folds_ = false;
-  plc::Plc undivided_;                   // if any facet is bent
+  bool has_bent_facets_;
+  plc::Plc undivided_;                   // these two once folds are protected
   std::optional<FacetDivider> divider_;  // of `undivided_`
 };
 

@@ -302,7 +302,7 @@ TEST(WorkOfSmallInputs, FrontWithEachLocator) {
   expect_work(work_of_front(LocatorKind::cavity, true), R"(
 face_check.box_tree_nodes 35
 face_check.box_pairs 125
-face_check.cells_visited 116
+face_check.cells_visited 107
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 10
@@ -320,7 +320,7 @@ front.peak_bytes 8104
   expect_work(work_of_front(LocatorKind::octree, true), R"(
 face_check.box_tree_nodes 35
 face_check.box_pairs 125
-face_check.cells_visited 116
+face_check.cells_visited 107
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 12
@@ -337,7 +337,7 @@ front.peak_bytes 14560
   expect_work(work_of_front(LocatorKind::grid, true), R"(
 face_check.box_tree_nodes 35
 face_check.box_pairs 125
-face_check.cells_visited 116
+face_check.cells_visited 107
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 48
@@ -356,7 +356,7 @@ TEST(WorkOfSmallInputs, FrontOverAllFaces) {
   expect_work(work_of_front(LocatorKind::cavity, false), R"(
 face_check.box_tree_nodes 35
 face_check.box_pairs 125
-face_check.cells_visited 116
+face_check.cells_visited 107
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 24
@@ -374,7 +374,7 @@ front.peak_bytes 16392
   expect_work(work_of_front(LocatorKind::octree, false), R"(
 face_check.box_tree_nodes 35
 face_check.box_pairs 125
-face_check.cells_visited 116
+face_check.cells_visited 107
 face_check.faces_tested 236
 face_check.peak_bytes 768
 front.orient3d_filter_failures 30
