@@ -125,13 +125,13 @@ CLI::Validator known_mesher() {
 }
 
 void add_choice(CLI::App& verb, const std::string& option, const std::vector<baselines::ChoiceKind::Name>& names,
-                std::function<void(const std::string&)> set, std::string_view standard, std::string what) {
+                const std::function<void(const std::string&)>& set, std::string_view standard, std::string what) {
   std::vector<std::string> words;
   for (const auto& [name, meaning] : names) {
     words.emplace_back(name);
     what += "\n  " + words.back() + ": " + std::string(meaning);
   }
-  verb.add_option_function<std::string>(option, std::move(set), what)
+  verb.add_option_function<std::string>(option, set, what)
       ->transform(one_of(words, true))
       ->default_str(std::string(standard));
 }

@@ -36,7 +36,7 @@ CLI::Validator known_mesher();
 /// \param standard  the default
 /// \param what      the option's meaning
 void add_choice(CLI::App& verb, const std::string& option, const std::vector<baselines::ChoiceKind::Name>& names,
-                std::function<void(const std::string&)> set, std::string_view standard, std::string what);
+                const std::function<void(const std::string&)>& set, std::string_view standard, std::string what);
 
 /// The same for an enumeration; the default is its value.
 template <NamedEnum Enum>

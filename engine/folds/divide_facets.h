@@ -63,15 +63,15 @@ class FacetDivider {
   using Triangle = std::array<VertexId, 3>;
   enum class Step : std::uint8_t { whole, most_triangles, needles, input };
 
-  bool is_bent(std::uint32_t facet) const { return !plc_.facets[facet].exactly_flat; }
+  bool is_bent(std::uint32_t f) const { return !plc_.facets[f].exactly_flat; }
   std::array<Point3, 3> corners_of(const Triangle& t) const;
-  std::span<const Triangle> triangles_of(std::uint32_t facet) const;
-  std::uint32_t leader(std::uint32_t triangle) const;
-  bool touches_segment(std::uint32_t facet) const;
-  bool separate(std::uint32_t facet, const std::array<Point3, 3>& face);
-  std::uint32_t group_of(std::uint32_t facet, std::uint32_t triangle) const;
-  std::vector<std::vector<Triangle>> parts_of(std::uint32_t facet) const;
-  void add_segments(std::uint32_t facet, plc::Plc& result) const;
+  std::span<const Triangle> triangles_of(std::uint32_t f) const;
+  std::uint32_t leader(std::uint32_t i) const;
+  bool touches_segment(std::uint32_t f) const;
+  bool separate(std::uint32_t f, const std::array<Point3, 3>& face);
+  std::uint32_t group_of(std::uint32_t f, std::uint32_t i) const;
+  std::vector<std::vector<Triangle>> parts_of(std::uint32_t f) const;
+  void add_segments(std::uint32_t f, plc::Plc& result) const;
 
   const plc::Plc& plc_;
   double least_height_;  // of triangles that are not needles

@@ -57,20 +57,20 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const facets::FacetMesh
   });
 }
 
-delaunay::Delaunay add_points(lattice::LatticePoints lattice, delaunay::Delaunay d, Run& run) {
+delaunay::Delaunay add_points(lattice::LatticePoints points, delaunay::Delaunay surface, Run& run) {
   const MeshOptions& options = run.options;
   return run.measured(Stage::delaunay, [&] {
     if (options.delaunay == DelaunayMethod::wrap) {
-      append_vertices(d, lattice.points, lattice.later_rounds);
-      return delaunay::wrap_delaunay(std::move(d.vertices), options.grid_scale, run.progress);
+      append_vertices(surface, points.points, points.later_rounds);
+      return delaunay::wrap_delaunay(std::move(surface.vertices), options.grid_scale, run.progress);
     }
     const bool is_lattice = options.lattice != Lattice::refinement;
-    if (is_lattice && options.delaunay == DelaunayMethod::core && lattice.share_in_one_level >= options.least_core)
-      run.counts.core_tetrahedra = cores::insert_points(lattice, d, run.progress);
+    if (is_lattice && options.delaunay == DelaunayMethod::core && points.share_in_one_level >= options.least_core)
+      run.counts.core_tetrahedra = cores::insert_points(points, surface, run.progress);
     else
-      insert_points(d, lattice.points, lattice.later_rounds, run.progress);
-    const lattice::LatticePoints freed = std::move(lattice);
-    return std::move(d);
+      insert_points(surface, points.points, points.later_rounds, run.progress);
+    const lattice::LatticePoints freed = std::move(points);
+    return std::move(surface);
   });
 }
 
