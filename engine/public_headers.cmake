@@ -20,7 +20,6 @@ set(public_headers
   lattice/options.h
   locate/options.h
   mesh/tet_mesh.h
-  mesh_options.h
   mesher.h
   plc/input.h
   protection/options.h
@@ -28,6 +27,7 @@ set(public_headers
   repair/find_faults.h
   repair/repair_input.h
   sizes/background_sizes.h
+  steps/mesh_options.h
   surface/options.h
   surface/remesh_surface.h
   tets/objective.h

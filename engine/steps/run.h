@@ -2,7 +2,7 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/stage_scope.h"
-#include "engine/mesh_options.h"
+#include "engine/steps/mesh_options.h"
 
 namespace ccdt::steps {
 
