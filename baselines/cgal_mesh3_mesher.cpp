@@ -33,8 +33,8 @@ using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation, Domain::C
 using Criteria = CGAL::Mesh_criteria_3<Triangulation>;
 namespace parameters = CGAL::parameters;
 
-/// The bounds of the refinement. Sizes are circumradii; a mesh whose largest circumradius is the edge length has edges
-/// of about that length on average.
+/// The bounds of the refinement. Sizes are circumradii; if the largest circumradius is the edge length, edges have
+/// about that length on average.
 struct Sizes {
   double feature_angle = 60;  ///< least angle between normals at a sharp edge, in degrees: the default of the library
   double edge, facet, facet_distance, cell;
@@ -81,14 +81,14 @@ std::map<SubdomainPair, Interface> interfaces_of(const plc::Plc& plc) {
 
 Polyhedron polyhedron_of(Interface& interface) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  // Splits vertices and edges at which the interface is not a manifold.
+  // Splits vertices and edges where the interface is not a manifold.
   pmp::orient_polygon_soup(interface.points, interface.triangles);
   Polyhedron polyhedron;
   pmp::polygon_soup_to_polygon_mesh(interface.points, interface.triangles, polyhedron);
   return polyhedron;
 }
 
-/// The vertices of a triangulation in the order in which they were asked for.
+/// Numbers the vertices of a triangulation in the order in which they are asked for.
 class VertexNumbers {
  public:
   explicit VertexNumbers(TetMesh& mesh) : mesh_(mesh) {}
@@ -164,7 +164,7 @@ Complex refine(const std::map<SubdomainPair, Interface>& interfaces, const Sizes
                           parameters::facet_size = sizes.facet, parameters::facet_distance = sizes.facet_distance,
                           parameters::cell_radius_edge_ratio = sizes.cell_radius_edge,
                           parameters::cell_size = sizes.cell);
-  // Perturbation and exudation improve the finished mesh, so they are on if the improvement of our engine is.
+  // Perturbation and exudation improve the finished mesh, so they are on if our engine's improvement is on.
   return CGAL::make_mesh_3<Complex>(domain, criteria, improve ? parameters::perturb() : parameters::no_perturb(),
                                     improve ? parameters::exude() : parameters::no_exude());
 }

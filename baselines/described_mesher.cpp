@@ -157,7 +157,7 @@ void clean_up(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& no
   orient_positively(mesh);
   if (const std::size_t restored = restore_coordinates(input.vertices, mesh); restored > 0)
     notes.push_back(std::to_string(restored) +
-                    " vertices of the input got back their coordinates, which files had rounded");
+                    " vertices of the input got their coordinates back, which files had rounded");
   if (mesh.faces.empty()) add_boundary_faces(mesh);
   if (input.inside == InputPlc::Inside::even_odd) keep_odd_regions(mesh);
   mesh.constrained_delaunay = false;

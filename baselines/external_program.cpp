@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t most_last_lines = 5;
 constexpr double most_seconds_for_version = 10;
-/// The library matches recursively, so a line of megabytes would overflow the stack.
+/// The regex library matches recursively, so a very long line would overflow the stack.
 constexpr std::size_t longest_line = 1000;
 
 bool can_be_executed(const std::filesystem::path& file) {

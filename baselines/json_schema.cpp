@@ -26,7 +26,7 @@ bool has_type(const Json& rule, const Json& value) {
          ((type == "number" || type == "integer") && value.is_number());
 }
 
-/// The rule to which a reference points.
+/// The rule that a reference points to.
 const Json& referred(const Json& schema, const Json& rule) {
   if (!rule.contains("$ref")) return rule;
   return referred(schema, schema.at(Pointer(rule["$ref"].get<std::string>().substr(1))));
@@ -43,7 +43,7 @@ const Json& rule_for(const Json& schema, const Json& reference, const Json& valu
   return rule;
 }
 
-/// The rule for a member of a value; null if the schema does not say one.
+/// The rule for a member of a value; null if the schema has none.
 const Json* rule_for_member(const Json& rule, const std::string& member) {
   if (rule.contains("properties") && rule["properties"].contains(member)) return &rule["properties"][member];
   if (rule.contains("patternProperties")) return &rule["patternProperties"].begin().value();
@@ -77,7 +77,7 @@ std::string description_at(const Json& schema, const Json& root, const Pointer& 
   return text.empty() ? "the members are " + listed(members_of(schema)) : text;
 }
 
-/// The rule for a value with all alternatives resolved by type, so that messages concern what the user meant.
+/// The rule for a value with all alternatives resolved by type, so that messages are about what the user meant.
 Json rule_as_meant(const Json& schema, const Json& rule_of_value, const Json& value) {
   Json rule = rule_for(schema, rule_of_value, value);
   if (rule.contains("patternProperties")) return rule;

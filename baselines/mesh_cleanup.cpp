@@ -32,7 +32,7 @@ Face sorted(Face face) {
   return face;
 }
 
-/// All faces of all tetrahedra; the two sides of an inner face follow each other.
+/// All faces of all tetrahedra; the two sides of an inner face are consecutive.
 std::vector<Side> sides_of(const TetMesh& mesh) {
   constexpr std::array<std::array<std::uint32_t, 4>, 4> corners = {
       {{0, 2, 1, 3}, {0, 1, 3, 2}, {1, 2, 3, 0}, {0, 3, 2, 1}}};
@@ -75,8 +75,8 @@ std::vector<std::array<Neighbor, 4>> neighbors_of(const TetMesh& mesh) {
   return neighbors;
 }
 
-/// For each tetrahedron: is an odd number of facets between it and infinity? Some programs fill the convex hull, and
-/// list facets only. Others list no face of the outside; it then consists of facets.
+/// For each tetrahedron: is an odd number of facets between it and infinity? Some programs fill the convex hull and
+/// list only facets. Others omit the outer boundary, which then consists of facets.
 std::vector<char> find_parities(const TetMesh& mesh) {
   const auto neighbors = neighbors_of(mesh);
   const auto is_outside = [](const Neighbor& next) { return next.tetrahedron == none; };
@@ -84,7 +84,7 @@ std::vector<char> find_parities(const TetMesh& mesh) {
     return std::ranges::any_of(around, [&](const Neighbor& n) { return is_outside(n) && n.is_across_facet; });
   });
   std::vector<char> parity(mesh.tetrahedra.size(), -1);
-  std::deque<std::uint32_t> open;  // a breadth-first fill from the hull inwards
+  std::deque<std::uint32_t> open;  // a breadth-first fill from the hull inward
   const auto visit = [&](std::uint32_t t, int value) {
     if (parity[t] >= 0) return;
     parity[t] = static_cast<char>(value);

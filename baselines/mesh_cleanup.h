@@ -17,8 +17,8 @@ std::size_t restore_coordinates(const std::vector<Point3>& input, TetMesh& mesh)
 /// different regions. Their markers are 0.
 void add_boundary_faces(TetMesh& mesh);
 
-/// Removes the tetrahedra that an even number of shells of facets encloses (`InputPlc::Inside::even_odd`), with the
-/// faces, edges and vertices that nothing uses any more. `mesh.faces` are the faces on facets.
+/// Removes the tetrahedra enclosed by an even number of shells of facets (`InputPlc::Inside::even_odd`), and the faces,
+/// edges and vertices that are then unused. `mesh.faces` are the faces on facets.
 void keep_odd_regions(TetMesh& mesh);
 
 /// Counts the elements of a mesh. A vertex with the coordinates of an input vertex is an input vertex. Any other is a

@@ -12,7 +12,7 @@
 
 namespace ccdt::baselines {
 
-/// A setting in the mesher's own terms: {"switches", "pQ"}.
+/// A setting in the mesher's own terms, such as {"switches", "pQ"}.
 using MesherSettings = std::vector<std::pair<std::string, std::string>>;
 
 /// The result of a mesher, and its settings.
@@ -36,7 +36,7 @@ struct Mesher {
   std::string version;  ///< version of a library; empty for a program (see `version_of`)
   std::string what;     ///< one line for people
   std::string license;
-  std::function<MesherRun(const InputPlc&, const MeshOptions&, const Progress&)> run;  ///< throws as `mesh_plc`
+  std::function<MesherRun(const InputPlc&, const MeshOptions&, const Progress&)> run;  ///< throws like `mesh_plc`
   /// The settings that `run` will use, so that they are known even if it crashes. Null: the options say everything.
   std::function<MesherSettings(const InputPlc&, const MeshOptions&)> settings = {};
   std::function<std::string()> ask_version = {};  ///< of a program; null for a library

@@ -96,7 +96,7 @@ MesherDescription description_from(const OrderedJson& json, const std::string& f
   return d;
 }
 
-/// The next placeholder from a position on, without its braces; empty, at the end of the text, if there is none.
+/// The next placeholder at or after a position, without its braces. If there is none: empty, at the end of the text.
 std::string_view next_name(std::string_view text, std::size_t from) {
   for (std::size_t brace = text.find('{', from); brace != std::string_view::npos; brace = text.find('{', brace + 1)) {
     const std::size_t end = std::min(text.find_first_not_of(placeholder_letters, brace + 1), text.size());
@@ -105,7 +105,7 @@ std::string_view next_name(std::string_view text, std::size_t from) {
   return text.substr(text.size());
 }
 
-/// Adds the paths of existing files among the words of a text.
+/// Adds those words of a text that are paths of existing files.
 void add_files_in(std::string_view text, std::set<std::filesystem::path>& files) {
   constexpr std::string_view between_words = " \t\n\r\"'`;:=,|&<>()";
   const auto add = [&](std::string_view word) {

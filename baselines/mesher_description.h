@@ -11,7 +11,7 @@
 
 namespace ccdt::baselines {
 
-/// The condition on which the text of a choice depends.
+/// The condition that the text of a choice depends on.
 enum class ChoiceCondition { interior_points, improvement, edge_length, regions };
 
 constexpr auto names_of(ChoiceCondition) {
@@ -26,7 +26,7 @@ constexpr auto names_of(ChoiceCondition) {
 struct Choice {
   std::string name;
   ChoiceCondition condition = ChoiceCondition::interior_points;
-  std::string text_if, text_else;  ///< may have placeholders that are no choices
+  std::string text_if, text_else;  ///< may have placeholders, except choices
 };
 
 /// How to call a user's mesher, and which formats it reads and writes. Texts may contain placeholders.
@@ -42,7 +42,7 @@ struct MesherDescription {
   std::string input_format;                                     ///< poly, smesh, stl, off, obj, ply or mesh
   std::string output;                                           ///< a file with an extension that `read_tet_mesh` knows
   std::vector<std::pair<std::string, std::string>> files = {};  ///< written beside the input: name, text
-  std::vector<Choice> choices = {};                             ///< placeholders of its own
+  std::vector<Choice> choices = {};                             ///< its own placeholders
   std::vector<std::string> version_command = {};                ///< prints the version; may be empty
   std::string version_pattern = {};                             ///< first group, or the whole match
   std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables in addition to those of the caller
@@ -61,8 +61,8 @@ std::string folder_of(const MesherDescription& description);
 /// All texts of a description that reach the program, with their placeholders; those of `choices` are not among them.
 std::vector<std::string> texts_of(const MesherDescription& description);
 
-/// The files that the texts and choices of a description name by whole paths, which begin with {here} or a slash; those
-/// that exist, by name. The program itself is not among them unless it is named in this way.
+/// The existing files that the texts and choices of a description name by full paths, which begin with {here} or a
+/// slash; sorted by name. The program itself is included only if it is named in this way.
 std::vector<std::filesystem::path> files_named_in(const MesherDescription& description);
 
 /// The placeholders in the texts of a description, written in braces: "{input}". A name consists of small letters and

@@ -4,11 +4,11 @@
 
 namespace ccdt::baselines {
 
-/// The input with vertices of equal coordinates merged: surface formats repeat a vertex in every triangle, and the
-/// other meshers want them shared. Triangles, polygons and segments keep their order.
+/// The input with vertices of equal coordinates merged: surface formats repeat a vertex in every triangle, but the
+/// other meshers expect shared vertices. Triangles, polygons and segments keep their order.
 InputPlc merge_equal_vertices(const InputPlc& input);
 
-/// The input with triangles for facets that are polygons: programs that read surfaces want triangles.
+/// The input with polygons replaced by triangles, which programs that read surfaces expect.
 InputPlc triangulate_facets(const InputPlc& input, const MeshOptions& options);
 
 /// Median length of the edges of the input's triangles and polygons; 0 without any.
@@ -20,7 +20,7 @@ double target_edge_length(const InputPlc& input, const MeshOptions& options);
 /// Volume of the regular tetrahedron of this edge length.
 double regular_tetrahedron_volume(double edge_length);
 
-/// Volume of the largest tetrahedron of a mesh of this edge length: twice that of the regular one, which is about the
+/// Volume of the largest tetrahedron of a mesh of this edge length: twice the regular one's, which is about the
 /// average.
 double largest_tetrahedron_volume(double edge_length);
 

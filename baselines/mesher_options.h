@@ -28,8 +28,8 @@ constexpr auto names_of(Strategies) {
         "--improve swap-smooth"}});
 }
 
-/// The options that strategies stand for, without those that are given. Without interior points, there is no
-/// improvement either.
+/// The options that strategies stand for, except the given ones. Without interior points, there is no improvement
+/// either.
 NamedOptions options_of(Strategies strategies, const NamedOptions& given);
 
 /// Replaces the option "strategies", if there is one, by the options that it stands for.
@@ -43,8 +43,8 @@ std::vector<OptionUse> options_of_engine();
 
 /// Reduces options to those that change what a mesher does, so that sets of options with the same effect are equal.
 /// Options that it does not use and default values are removed, and equal numbers are written alike. If only "none"
-/// makes a difference, all other values count as the default. `ccdt mesh` does the same with these options as with all.
-/// Names that are not in `usual_options` stay.
+/// makes a difference, all other values count as the default. `ccdt mesh` does the same with these options as with all
+/// of them. Names that are not in `usual_options` stay.
 NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options);
 
 }  // namespace ccdt::baselines

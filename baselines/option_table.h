@@ -40,15 +40,15 @@ struct FileKind {
   std::string& (*member)(MeshOptions&);
 };
 
-/// An option has an effect only if another one has this value, or has not.
+/// An option has an effect only if another one has this value, or does not have it.
 struct Need {
   std::string_view option;
   bool is = true;
   std::string_view value;
 };
 
-/// An option of `ccdt mesh` that controls meshing: all that the command line, sweeps, reports and the reference know of
-/// it.
+/// An option of `ccdt mesh` that controls meshing: everything that the command line, sweeps, reports and the reference
+/// know about it.
 struct MeshOption {
   std::string_view name;  ///< without dashes: "edge-length"; in JSON with underscores
   std::variant<ChoiceKind, NumberKind, CountKind, FileKind> kind;
@@ -58,7 +58,7 @@ struct MeshOption {
   bool of_inside = false;      ///< our engine uses it only for interior points
   bool of_refinement = false;  ///< and for `--surface refine`
   bool of_remeshing = false;   ///< has an effect with `--surface remesh`, before any mesher runs
-  /// The default, if that of `MeshOptions` is not one; empty: it depends on the input.
+  /// The default, if `MeshOptions` does not give it; empty: it depends on the input.
   std::optional<std::string_view> usual = {};
 };
 
@@ -68,7 +68,7 @@ const std::vector<MeshOption>& mesh_options();
 /// The option of this name; null if there is none.
 const MeshOption* find_mesh_option(std::string_view name);
 
-/// A value as reports have it.
+/// A value as it is in reports.
 using OptionValue = std::variant<bool, double, std::string>;
 
 OptionValue recorded_value(const MeshOption& option, MeshOptions& options);

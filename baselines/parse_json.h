@@ -6,12 +6,12 @@
 
 namespace ccdt::baselines {
 
-/// The deepest nesting of lists and objects in JSON that this program reads. Schemas need less than ten, and a function
-/// that visits a document calls itself once for each level.
+/// The deepest nesting of lists and objects in JSON that this program reads. Schemas need fewer than ten levels, and
+/// functions that visit a document call themselves once per level.
 inline constexpr int most_nested = 200;
 
-/// Parses a text that anyone may have written.
-/// \throw nlohmann::ordered_json::parse_error  it is no JSON, or nested too deep; with the byte
+/// Parses untrusted text.
+/// \throw nlohmann::ordered_json::parse_error  it is not JSON, or is nested too deep; carries the byte
 nlohmann::ordered_json parse_json(std::string_view text);
 
 /// The same; none for a text that cannot be parsed.

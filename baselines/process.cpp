@@ -130,7 +130,7 @@ constexpr FailureKind kind_of(Reached limit) {
                                     : FailureKind::limit;
 }
 
-/// The limits of a supervised program, and where its use is measured.
+/// The limits of a supervised program, and where its resource use is measured.
 struct Watched {
   pid_t supervisor;
   const Limits& limits;
@@ -204,11 +204,11 @@ void explain_end(int wait_status, ProcessResult& result) {
 /// Where the output of a child process goes.
 struct OutputFiles {
   int out = -1, err = -1;
-  const Descriptor* captured = nullptr;  ///< the one that becomes `printed` of the result; may be null
+  const Descriptor* captured = nullptr;  ///< becomes `printed` of the result; may be null
 };
 
-/// Asks the kernel to end this process before its parent.
-void prefer_when_memory_runs_out() {
+/// If memory runs out, the kernel should end this process before its parent.
+void kill_first_when_out_of_memory() {
   const int file = open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
   write_whole(file, "500");
@@ -260,9 +260,9 @@ ProcessResult run_child(const OutputFiles& files, Body body) {
   return result;
 }
 
-/// Batch systems and shutdowns end both this process and the program, perhaps the program a moment earlier. Its end
-/// then says nothing about the program itself.
-bool is_to_stop_too() {
+/// Batch systems and shutdowns end both this process and the program, perhaps the program a moment earlier. That it
+/// ended then says nothing about the program itself.
+bool must_stop_too() {
   constexpr auto a_moment = std::chrono::milliseconds(10);
   if (!stop_requested()) std::this_thread::sleep_for(a_moment);
   return stop_requested();
@@ -281,13 +281,13 @@ ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, con
   const pid_t supervisor = fork();
   if (supervisor < 0) fail("cannot start a child process");
   if (supervisor == 0) {
-    setpgid(0, 0);  // signals from the terminal to this process must not reach them
+    setpgid(0, 0);  // signals from the terminal to this process must not reach the program
     const Supervisor self(parent);
     // A fork copies the page tables, which takes milliseconds per 100 MB.
     const pid_t child = vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
     if (child == 0) {
       self.release_child();
-      prefer_when_memory_runs_out();
+      kill_first_when_out_of_memory();
       set_up_child(files, null);
       body();
     }
@@ -303,7 +303,7 @@ ProcessResult run_supervised(const OutputFiles& files, const Limits& limits, con
     int of_program = 0;  // missing if the supervisor was killed
     if (pread(program_status.value, &of_program, sizeof of_program, 0) == sizeof of_program) status = of_program;
     explain_end(status, result);
-    if (result.kind && is_to_stop_too()) throw Stopped();
+    if (result.kind && must_stop_too()) throw Stopped();
   } else {
     set_failure(kind_of(reached), result);
     result.signal = SIGKILL;
@@ -339,7 +339,7 @@ ProcessResult run_program(const std::vector<std::string>& command, const Program
 }
 
 ProcessResult run_function(const std::function<std::string()>& function) {
-  // It follows the value, because the exit code does not prove that the function returned: it may have called exit.
+  // Follows the value, because the exit code does not prove that the function returned: it may have called exit.
   constexpr char end_mark = '.';
   const Descriptor printed = memory_file(), value = memory_file();
   std::fflush(nullptr);  // otherwise the child would print the contents of the buffers again

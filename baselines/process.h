@@ -16,11 +16,11 @@ namespace ccdt::baselines {
 /// The limits of a child process; 0 means no limit.
 ///
 /// Memory is checked a hundred times a second, and the disk ten times. The kernel could only limit the address space,
-/// of which sanitizers and allocators reserve far more than they use.
+/// but sanitizers and allocators reserve far more of that than they use.
 struct Limits {
   double seconds = 0;              ///< of wall-clock time
   std::uint64_t memory_bytes = 0;  ///< of resident memory, including all descendants
-  std::uint64_t disk_bytes = 0;    ///< in its scratch folder, and of output
+  std::uint64_t disk_bytes = 0;    ///< of its scratch folder and its output
 };
 
 /// Where and how a program runs.
@@ -28,8 +28,8 @@ struct ProgramOptions {
   std::filesystem::path folder = {};                                  ///< empty: where this process runs
   std::vector<std::pair<std::string, std::string>> environment = {};  ///< variables besides those of this process
   std::filesystem::path log = {};  ///< file for all output; empty: standard output is dropped
-  /// If there are limits, even of 0, the program is supervised: it and all its descendants end when it ends, when this
-  /// process ends or is asked to stop, or at a limit.
+  /// If there are limits, even of 0, the program is supervised: it is ended at a limit, or when this process ends or is
+  /// asked to stop. Its descendants end with it.
   std::optional<Limits> limits = {};
   std::filesystem::path scratch = {};  ///< TMPDIR of the program; empty: that of this process
 };

@@ -20,8 +20,8 @@ std::string folder_of(pid_t process) {
   return "/proc/" + std::to_string(process);
 }
 
-/// The beginning of a file in /proc, read in one call because this happens a hundred times a second; empty if it cannot
-/// be read.
+/// The beginning of a file in /proc; empty if it cannot be read. It is read in one call, since this happens a hundred
+/// times a second.
 class KernelText {
  public:
   explicit KernelText(const std::string& file) {

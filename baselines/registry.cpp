@@ -37,7 +37,7 @@ std::string names_of_all() {
   return names;
 }
 
-/// The mesher that a file describes, which is read once.
+/// The mesher that a file describes. Each file is read once.
 const Mesher& mesher_of_file(const std::string& file) {
   static std::map<std::string, Mesher> known;
   if (const auto found = known.find(file); found != known.end()) return found->second;

@@ -29,7 +29,7 @@ extern "C" void on_end(int signal) {
   _exit(signal_base + signal);
 }
 
-/// \return  what was done before about each of the signals
+/// \return  the previous action for each signal
 std::array<struct sigaction, handled.size()> handle_by(void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;

@@ -20,12 +20,11 @@ void request_stop();
 bool stop_requested();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP remove all unfinished files (`io::remove_unfinished_files`) and end this
-/// process with the exit code that shells give such an end: 128 plus the number of the signal. After `nohup`, SIGHUP
-/// stays ignored.
+/// process with the usual exit code of shells: 128 plus the number of the signal. After `nohup`, SIGHUP stays ignored.
 void clean_up_on_signals();
 
-/// As long as the object lives, these signals do not end this process but ask it to stop, by `request_stop`. Objects
-/// may be nested. If nothing was stopped, the signal takes effect at the end of the outermost one.
+/// While the object lives, these signals do not end this process but ask it to stop (`request_stop`). Objects may be
+/// nested. If nothing was stopped, the signal takes effect at the end of the outermost one.
 class StopSignals {
  public:
   StopSignals();

@@ -16,7 +16,7 @@ namespace {
 void kill_children() {
   const int file = open("/proc/thread-self/children", O_RDONLY | O_CLOEXEC);
   if (file < 0) return;
-  std::array<char, 4096> text;  // further ones are found next time
+  std::array<char, 4096> text;  // further children are found next time
   const ssize_t size = read(file, text.data(), text.size());
   close(file);
   pid_t child = 0;
@@ -75,7 +75,7 @@ void Supervisor::watch(pid_t program, int report) const {
     kill_children();
     last = reap(0);  // orphans of its children become children of this process
   } while (last > 0 || errno == EINTR);
-  if (why == SIGTERM) {  // keeps the status with which it ended, not that of the signal just sent
+  if (why == SIGTERM) {  // keeps the status that it ended with, not that of the signal just sent
     signal(SIGTERM, SIG_DFL);
     sigprocmask(SIG_SETMASK, &usual_, nullptr);
     raise(SIGTERM);

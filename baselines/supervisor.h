@@ -10,18 +10,18 @@ namespace ccdt::baselines {
 ///     parent ── supervisor ── program ── its children ...
 ///
 /// The supervisor adopts orphans of its descendants. It kills all descendants when the program ends, when the parent
-/// ends in any way, or on SIGTERM. It is a fork of a process that may have several threads, so it makes only system
+/// ends in any way, or on SIGTERM. It is forked from a process that may have several threads, so it makes only system
 /// calls.
 class Supervisor {
  public:
-  /// Makes this process, a fork of `parent`, a supervisor. Ends it if the parent has gone.
+  /// Makes this process, a fork of `parent`, a supervisor. Ends it if the parent is gone.
   explicit Supervisor(pid_t parent);
 
   /// Prepares the supervisor's fork before the program starts: it dies with the supervisor and gets default signal
   /// handling.
   void release_child() const;
 
-  /// Waits for the end of the program and kills its remaining descendants. On SIGTERM it ends by this signal.
+  /// Waits for the end of the program and kills its remaining descendants. On SIGTERM, it ends by this signal.
   /// \param report  descriptor of a file that gets the status of the program, in the form of `waitpid`
   [[noreturn]] void watch(pid_t program, int report) const;
 

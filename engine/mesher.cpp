@@ -19,11 +19,11 @@ namespace {
 
 using steps::ProtectedDomain, steps::Run, steps::Tetrahedralization;
 
-/// All stages from an input to its constrained Delaunay tetrahedralization. Where bent facets are in the way, all
-/// starts again from the vertices of the PLC, with their folds protected. Folds of a refined surface would be too many.
-/// So there, all starts again before refinement, with flat facets.
+/// All stages from an input to its constrained Delaunay tetrahedralization. If nearly flat facets are in the way,
+/// meshing starts again from the vertices of the PLC, with their folds protected. A refined surface has too many folds
+/// for that, so there it starts again before refinement, with flat facets.
 ///
-/// \param domain  gets all but its tetrahedra
+/// \param domain  gets everything but its tetrahedra
 Tetrahedralization tetrahedralize(const InputPlc& input, bool flattens, ProtectedDomain& domain, Run& run) {
   const bool refines = run.options.surface == SurfaceRule::refine;
   steps::TetrahedralizedPlc start = steps::make_plc(input, flattens, run);

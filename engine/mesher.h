@@ -24,13 +24,13 @@ unsigned number_of_threads(const MeshOptions& options);
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
 /// \param input       facets in any units, which also apply to lengths and to the mesh; polygons that are not planar
-///                    are triangulated so that they bend least. With `SurfaceRule::remesh`, the mesh bounds the surface
-///                    that `surface::remesh_surface` makes
+///                    are triangulated so that they bend least. With `SurfaceRule::remesh`, the surface of the mesh is
+///                    the one that `surface::remesh_surface` makes
 /// \param options     strategies, sizes and targets of improvement
 /// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
 ///                    released
 /// \throw InputError  the input is not a valid PLC, or remeshing has no edge length
-/// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh too many vertices
+/// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh would have too many vertices
 /// \throw MeshError   no valid mesh or new surface was found
 /// \throw ...         any exception of `progress`
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});

@@ -11,11 +11,11 @@
 namespace ccdt::models {
 namespace {
 
-// Millimeters. The foot runs along x and the wall along z, both as wide as y goes.
+// Millimeters. The foot runs along x and the wall along z. The width of both is along y.
 constexpr double thickness = 8;
 constexpr double length = 80;  // of both legs
 constexpr double width = 60;
-constexpr double bend = 16;  // outer radius of the bend, where the legs begin; the inner one is less by the thickness
+constexpr double bend = 16;  // outer radius of the bend, where the legs begin; the inner radius is this minus thickness
 constexpr double rounding = 12;  // radius of the free corners of the legs
 constexpr double straight = length - rounding;
 constexpr double gusset_low = 26, gusset_high = 34;           // its sides
@@ -60,20 +60,19 @@ struct Leg {
   Point3 at(double out, double across, double up) const {
     return is_foot ? Point3{out, across, up} : Point3{up, across, out};
   }
-  /// The angle around `up_axis` of what is at an angle from `out` toward `across`.
+  /// Converts an angle from `out` toward `across` to an angle around `up_axis`.
   double angle(double from_out) const { return is_foot ? from_out : 90 - from_out; }
 };
 
-/// The curves of a leg: those of its outer face and its inner face by [0] and [1], those between the faces, in order
-/// around it.
+/// The curves of a leg, in order around it: [0] on its outer face, [1] on its inner face, and those between the faces.
 struct LegCurves {
   std::array<std::vector<Chain>, 2> around;  ///< side, corner, end (the foot's in two parts), corner, side
-  std::vector<Chain> through;                ///< where these meet: one more
-  std::array<Chain, 2> slit_lines;           ///< from the end inwards; the foot only
+  std::vector<Chain> through;                ///< where the curves of `around` meet, so one more than these
+  std::array<Chain, 2> slit_lines;           ///< from the end inward; the foot only
   std::array<std::vector<Ring>, 2> rings;    ///< the holes
   Chain outer_bend;                          ///< where the bend begins, from low to high across
   std::array<Chain, 2> inner_bend;           ///< below and above the gusset
-  std::array<Chain, 2> gusset_sides;         ///< from the bend outwards, low and high
+  std::array<Chain, 2> gusset_sides;         ///< outward from the bend, low and high
   Chain gusset_tip;                          ///< from low to high
 };
 
@@ -189,16 +188,16 @@ void add_bend(Bracket& b, const LegCurves& on_foot, const LegCurves& on_wall, co
   for (std::size_t side = 0; side < 2; ++side) {
     const Chain& foot_line = side == 0 ? on_foot.through.front() : reversed(on_foot.through.back());
     const Chain& wall_line = side == 0 ? on_wall.through.front() : reversed(on_wall.through.back());
-    const auto upwards = [&](const Chain& chain) { return side == 0 ? chain : reversed(chain); };
+    const auto upward = [&](const Chain& chain) { return side == 0 ? chain : reversed(chain); };
     const Chart plane = side == 0 ? plane_chart({}, -1 * y_axis) : plane_chart(width * y_axis, y_axis);
-    b.add(plane, {upwards(foot_line), inner[side], reversed(upwards(wall_line)), reversed(outer[side])}, sides);
+    b.add(plane, {upward(foot_line), inner[side], reversed(upward(wall_line)), reversed(outer[side])}, sides);
   }
 }
 
 /// The curves of the gusset that do not lie on the legs. The interior face cuts it in two.
 struct GussetCurves {
   std::array<Chain, 2> arcs;        ///< along the bend, from the foot to the wall; low and high
-  std::array<Chain, 2> cut_up;      ///< the interior face's edges, from the foot upwards
+  std::array<Chain, 2> cut_up;      ///< the interior face's edges, from the foot upward
   Chain cut_across;                 ///< and its edge in the slope, from low to high
   std::array<Chain, 2> slope_foot;  ///< from the tip on the foot to the cut
   std::array<Chain, 2> slope_wall;  ///< from the cut to the tip on the wall

@@ -36,8 +36,8 @@ double distance(const Point3& a, const Point3& b);
 
 Chain reversed(const Chain& chain);
 
-/// Open chains, each of which starts where the one before ends (the last ends where the first starts), as one closed
-/// chain. \throw std::logic_error  they do not
+/// Joins open chains to one closed chain. Each must start where the one before ends, and the first where the last ends.
+/// \throw std::logic_error  they do not
 Chain closed_loop(std::span<const Chain> chains);
 
 /// Moves the surface into an input with triangles and markers only.

@@ -27,8 +27,8 @@ plc::InputPlc make_cube(double edge_length);
 plc::InputPlc make_graded_cube(double edge_length);
 /// The unit sphere about the origin: an icosahedron, each face divided, on the sphere.
 plc::InputPlc make_sphere(double edge_length);
-/// The logarithms of the rough sphere's radii cover a range of this times the edge length. It makes one face in ten not
-/// Delaunay; with 1 there is none yet.
+/// The logarithms of the rough sphere's radii cover a range of this times the edge length. With this value, one face in
+/// ten is not Delaunay; with 1, all faces are.
 inline constexpr double rough_sphere_range = 3;
 /// The sphere with pseudorandom radii, the same each time.
 plc::InputPlc make_rough_sphere(double edge_length);

@@ -35,12 +35,12 @@ using PatchEdge = std::array<std::uint32_t, 2>;
 /// The edges of a patch and their vertices, in the plane.
 struct PatchOutline {
   std::vector<planar::Point2> vertices;
-  std::vector<PatchEdge> border;  ///< closed loops that do not cross; inside is what an odd number of them encloses
+  std::vector<PatchEdge> border;  ///< closed loops that do not cross; a point within an odd number of them is inside
   std::vector<PatchEdge> cuts;    ///< further edges inside the border
 };
 
-/// The edge length wanted at a place of a patch: the target, but near the outline no more than the outline's own edge
-/// length and what it may grow with the distance from it.
+/// The edge length wanted at a place of a patch. It is the target, but near the outline it is limited by the outline's
+/// own edge length, plus the growth that the distance allows.
 class PatchSpacing {
  public:
   PatchSpacing(const PatchOutline& outline, double edge_length);
@@ -166,7 +166,7 @@ class Enclosure {
   std::vector<std::vector<std::uint32_t>> bands_;
 };
 
-/// The advancing layers of points.
+/// Places points in advancing layers.
 class PointFront {
  public:
   PointFront(const PatchOutline& outline, const PatchSpacing& spacing)
@@ -181,7 +181,7 @@ class PointFront {
     }
   }
 
-  /// The tips of the equilateral triangles on both sides of an edge.
+  /// Tries to place the tips of the equilateral triangles on both sides of an edge.
   void grow_from_edge(const planar::Point2& a, const planar::Point2& b) {
     const double angle = std::atan2(b.y - a.y, b.x - a.x) + std::numbers::pi / 2;
     const planar::Point2 m = middle(a, b);
@@ -208,10 +208,10 @@ class PointFront {
  private:
   struct Placed {
     planar::Point2 point;
-    double angle;  // of one of the six edges that it should have
+    double angle;  // direction of one of the six edges that the point should have
   };
 
-  /// Stands for an edge by its middle, and by more points where it is long beside the smallest spacing.
+  /// Represents an edge by its middle, or by more points if it is long compared with the smallest spacing.
   void add_samples(const planar::Point2& a, const planar::Point2& b) {
     const int parts = std::max(2, static_cast<int>(std::ceil(gap(a, b) / spacing_.smallest())));
     for (int i = 1; i < parts; ++i) {
@@ -236,8 +236,8 @@ class PointFront {
   std::vector<Placed> placed_;
 };
 
-/// Places points inside the outline layer by layer, from its edges inward. Each makes an equilateral triangle with
-/// existing points, and none is too near to another.
+/// Places points inside the outline layer by layer, from its edges inward. Each point makes an equilateral triangle
+/// with existing points, and no two points are too close.
 std::vector<planar::Point2> place_patch_points(const PatchOutline& outline, const PatchSpacing& spacing) {
   PointFront front(outline, spacing);
   for (const auto* edges : {&outline.border, &outline.cuts}) {

@@ -38,7 +38,7 @@ struct SurfacePatch {
 /// layers, their constrained Delaunay triangulation, then smoothing toward the optimal Delaunay triangulation (Chen &
 /// Xu 2004) in turn with flips.
 ///
-/// \throw std::logic_error  the curves cross, or meet otherwise than in shared vertices
+/// \throw std::logic_error  the curves cross, or meet at points that are not shared vertices
 void add_patch(ModelSurface& surface, const SurfacePatch& patch);
 
 }  // namespace ccdt::models

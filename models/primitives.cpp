@@ -84,7 +84,7 @@ plc::InputPlc make_cube(double edge_length) {
 
 plc::InputPlc make_sphere(double edge_length) {
   const Icosahedron ico = icosahedron();
-  // Of 20 n^2 equilateral triangles with that edge length over n and the area of the sphere.
+  // With this length over n as their edge length, 20 n^2 equilateral triangles have the area of the sphere.
   const double rough_edge = 4 * std::sqrt(std::numbers::pi / (20 * std::numbers::sqrt3));
   const int n = parts_of(rough_edge, edge_length);
   ModelSurface surface;
@@ -145,7 +145,7 @@ plc::InputPlc make_schoenhardt(double) {
       input.vertices.push_back(on_circle(Axis::z, {0, 0, height}, 1, degrees + 30 * height));
     }
   }
-  // Of the two diagonals of each side the one along which it is folded inwards, which is a reflex edge.
+  // Each side is folded inward along one of its two diagonals, which is a reflex edge.
   input.triangles = {{0, 2, 1}, {3, 4, 5}};
   for (std::uint32_t i = 0; i < 3; ++i) {
     const std::uint32_t next = (i + 1) % 3;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double row_height = 0.8660254037844386;  // of a row of equilateral triangles with edges of length one
 
-/// The edge length wanted along a profile whose ends have rings of given spacing.
+/// The wanted edge length at a place along a profile between two rings with given spacings.
 double spacing_at(double along, double length, const Ring& from, const Ring& to, double edge_length) {
   double spacing = edge_length;
   if (from.radius > 0) spacing = std::min(spacing, from.spacing() + edge_length_growth * along);
@@ -18,7 +18,7 @@ double spacing_at(double along, double length, const Ring& from, const Ring& to,
   return spacing;
 }
 
-/// The places of the rows between the two rings along the profile, graded as the edge length is.
+/// The places along the profile of the rows between the two rings. Their spacing follows the edge length.
 std::vector<double> row_places(const Ring& from, const Ring& to, double length, double edge_length) {
   constexpr int samples = 512;
   std::vector<double> rows(samples + 1, 0.0);
@@ -102,7 +102,7 @@ void add_revolution(ModelSurface& surface, const Ring& from, const Ring& to, con
   Ring before = from;
   double phase = 0;
   for (const double place : row_places(from, to, profile.length, revolution.edge_length)) {
-    phase = phase == 0 ? 0.5 : 0;  // rows of equal count then interlock
+    phase = phase == 0 ? 0.5 : 0;  // so that rows with the same number of vertices interlock
     const double spacing = spacing_at(place, profile.length, from, to, revolution.edge_length);
     Ring row = inner_ring(surface, revolution, profile.at(place), spacing, phase);
     join_rings(surface, before, row, revolution.marker);

@@ -18,7 +18,7 @@ double scattered(std::uint64_t index) {
 
 plc::InputPlc make_rough_sphere(double edge_length) {
   plc::InputPlc input = make_sphere(edge_length);
-  // A ray from the center still meets one triangle, so however rough it is, the surface does not cross itself.
+  // Each ray from the center still meets the surface once, so even a very rough surface does not cross itself.
   for (std::size_t i = 0; i < input.vertices.size(); ++i)
     input.vertices[i] = std::exp(rough_sphere_range * edge_length * (scattered(i) - 0.5)) * input.vertices[i];
   return input;

@@ -20,8 +20,8 @@ struct Solid {
 /// neither geometry nor sizes), cube, graded-cube, sphere, rough-sphere, torus (of
 /// size one), schoenhardt (always the same).
 ///
-/// Each group of faces has its own marker, counted from 1 (models/parts.h lists them). All are closed surfaces but the
-/// bracket, whose markers 8 (a face between its two regions) and 9 (a slit) are facets inside.
+/// Each group of faces has its own marker, counted from 1 (models/parts.h lists them). All are closed surfaces except
+/// the bracket. It also has facets inside, with the markers 8 (between its two regions) and 9 (a slit).
 std::span<const Solid> solids();
 
 /// The solid of that name with triangles of about that edge length (units of the model; <= 0: its default).

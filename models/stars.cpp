@@ -55,8 +55,8 @@ std::vector<Point3> wheel(double degrees) {
   return directions;
 }
 
-/// Directions all over the sphere (a Fibonacci spiral; Gonzalez 2010), as many as make the angles to the nearest about
-/// as wanted.
+/// Directions all over the sphere (a Fibonacci spiral; Gonzalez 2010). Their number is such that neighbors have about
+/// the wanted angle.
 std::vector<Point3> urchin(double degrees) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   const double nearest = radians(degrees);
@@ -68,8 +68,8 @@ std::vector<Point3> urchin(double degrees) {
 
 constexpr std::array all_stars = {
     Star{"two segments", "Two segments that enclose the angle.", 1, false, pair},
-    Star{"three segments", "Three segments, each two of which enclose the angle.", 1, false, trio},
-    Star{"bundle", "A segment in the middle of three others, which have the angle with it.", 1, false, bundle},
+    Star{"three segments", "Three segments, with the angle between any two of them.", 1, false, trio},
+    Star{"bundle", "A segment in the middle of three others, with the angle to each of them.", 1, false, bundle},
     Star{"fins", "Three triangles at one common edge, with the angle between neighbors.", 1, true, fins},
     Star{"wheel", "Segments all around a point in a plane, with the angle between neighbors.", 1, false, wheel},
     Star{"urchin", "Segments all around a point in space, with about the angle between neighbors.", 5, false, urchin},

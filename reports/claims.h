@@ -25,7 +25,7 @@ enum class ClaimVerdict {
   not_testable  ///< nothing was measured, or the intervals are too wide
 };
 
-/// The names are those in JSON, and what follows is for people.
+/// Each name as it is in JSON, followed by the text for people.
 constexpr auto names_of(ClaimVerdict) {
   return std::to_array<NamedValue<ClaimVerdict>>(
       {{ClaimVerdict::confirmed, "confirmed", "confirmed"},

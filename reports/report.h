@@ -53,7 +53,7 @@ bench::Json claims_json(const Report& report);
 /// Compares two folders, as a report of one section: which deterministic figures differ, which times are outside the
 /// interval of the first folder, and which verdicts have changed. Rows are matched by their labels.
 ///
-/// \param into  the folder of the new report, which its files are named from
+/// \param into  the folder of the new report; its files are named relative to it
 /// \throw InputError  one of the folders has no experiment
 Report compare_reports(const std::filesystem::path& first, const std::filesystem::path& second,
                        const std::filesystem::path& into, std::span<const ReportChart> charts);

@@ -58,7 +58,7 @@ std::string in_words(const std::exception& error) {
     return "ccdt: out of memory\n  use a larger --edge-length, or a machine with more memory";
   if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&error))
     return "ccdt: " + file->path1().string() + ": " + file->code().message() +
-           "\n  check the path, and that you may write there";
+           "\n  check the path and its write permissions";
   return "ccdt: internal error: " + std::string(error.what()) +
          "\n  this is a bug in ccdt: please report it with the input";
 }

@@ -4,8 +4,8 @@
 
 namespace ccdt::tools {
 
-/// Locks a folder against other processes as long as the object lives. The system unlocks it if the process is killed.
-/// Within one process, a second lock of the same folder is not refused, and to close the file "lock" anywhere else
+/// Locks a folder against other processes while the object exists. The system unlocks it if the process is killed.
+/// Within one process, a second lock of the same folder is not refused, and closing the file "lock" anywhere else
 /// unlocks the folder.
 class FolderLock {
  public:

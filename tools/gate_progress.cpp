@@ -10,11 +10,11 @@ namespace ccdt::tools {
 namespace {
 
 constexpr std::chrono::seconds pause_of_lines{30};
-constexpr double seconds_of_a_minute = 60;
+constexpr double seconds_per_minute = 60;
 
 std::string duration(double seconds) {
-  if (seconds < 2 * seconds_of_a_minute) return std::to_string(std::lround(std::ceil(seconds))) + " s";
-  return std::to_string(std::lround(std::ceil(seconds / seconds_of_a_minute))) + " min";
+  if (seconds < 2 * seconds_per_minute) return std::to_string(std::lround(std::ceil(seconds))) + " s";
+  return std::to_string(std::lround(std::ceil(seconds / seconds_per_minute))) + " min";
 }
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {

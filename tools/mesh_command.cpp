@@ -55,7 +55,7 @@ void check_surface_options(const MeshCommand& command) {
                                "only ccdt refines a surface; use --surface remesh for other meshers");
 }
 
-/// Of files that give the vertices of a surface back exactly, so that its mesh can be verified against it.
+/// File formats that keep the vertices of a surface exactly, so that its mesh can be verified against it.
 constexpr const char* surface_endings = ".off .obj .ply .poly";
 
 void check_surface_output(const std::filesystem::path& file) {
@@ -87,10 +87,10 @@ void check_files(const MeshCommand& command) {
   check_are_different(command.output, command.report);
 }
 
-std::string note_of(const InputPlc::Bent& bent) {
+std::string note_of(const InputPlc::Warped& warped) {
   char deviation[32];
-  std::snprintf(deviation, sizeof deviation, "%.3g", bent.largest_deviation);
-  return std::to_string(bent.count) + (bent.count == 1 ? " facet is" : " facets are") + " not planar, by up to " +
+  std::snprintf(deviation, sizeof deviation, "%.3g", warped.largest_deviation);
+  return std::to_string(warped.count) + (warped.count == 1 ? " facet is" : " facets are") + " not planar, by up to " +
          deviation + ": triangulated so that they bend least";
 }
 
@@ -136,9 +136,9 @@ InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& optio
   record.costs[Stage::remesh] = surface.costs[Stage::remesh];
   record.input.facets = surface.facets;
   if (surface.changed) input = *std::move(surface.changed);
-  record.input.nonplanar_facets = input.bent.count;
-  record.input.largest_deviation = input.bent.largest_deviation;
-  if (input.bent.count > 0) record.notes.push_back(note_of(input.bent));
+  record.input.nonplanar_facets = input.warped.count;
+  record.input.largest_deviation = input.warped.largest_deviation;
+  if (input.warped.count > 0) record.notes.push_back(note_of(input.warped));
   if (options.edge_length > surface.edge_length)
     record.notes.push_back("--edge-length " + digits(options.edge_length) +
                            " is longer than the whole part: " + bench::rounded(surface.edge_length) +
@@ -160,7 +160,7 @@ std::string words_of(const bench::SurfaceLimit& limit) {
          bench::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
          bench::rounded(bench::SurfaceLimit::bad_r) + " touch surface triangles with an angle below " +
          bench::rounded(bench::SurfaceLimit::bad_angle) + " degrees (smallest: " + bench::rounded(limit.least_angle) +
-         "); --surface refine puts even triangles on flat facets, --surface remesh on bent surfaces, too";
+         "); --surface refine puts even triangles on flat facets, --surface remesh on curved surfaces, too";
 }
 
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.

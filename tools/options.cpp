@@ -25,7 +25,7 @@ std::string complaint(const std::string& text, double least, bool least_itself) 
 
 constexpr const char* choices_prefix = "one of:";
 
-/// The choices are kept in the name of the validator: --help would print them in any other place.
+/// The choices are stored in the name of the validator. Anywhere else, --help would print them.
 std::string validator_name(const std::vector<std::string>& choices) {
   std::string name = choices_prefix;
   for (const std::string& choice : choices) name += " " + choice;

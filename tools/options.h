@@ -16,9 +16,9 @@ namespace ccdt::tools {
 CLI::Validator positive_number();
 /// A finite number that is not negative.
 CLI::Validator non_negative_number();
-/// A number from the least to the most, both included; not NaN.
+/// A number from `least` to `most`, inclusive; not NaN.
 CLI::Validator number_between(double least, double most);
-/// A whole number from the least to the most, both included.
+/// A whole number from `least` to `most`, inclusive.
 CLI::Validator whole_number(int least, int most);
 
 /// One of these names. Shells complete them.

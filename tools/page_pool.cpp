@@ -11,7 +11,7 @@
 namespace ccdt::tools {
 namespace {
 
-/// A smaller rest of a piece is not kept. That limits the number of pieces.
+/// If less than this is left of a piece, it is not kept. That limits the number of pieces.
 constexpr std::size_t least_rest = std::size_t{1} << 18;
 
 std::size_t round_up(std::size_t size, std::size_t unit) {
@@ -35,7 +35,7 @@ std::size_t used_size(std::byte* begin, std::size_t size) {
   return 0;
 }
 
-/// Null: there is not so much memory.
+/// Null if there is not enough memory.
 std::byte* map_pages(std::size_t size) {
   void* const pages = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   return pages == MAP_FAILED ? nullptr : static_cast<std::byte*>(pages);
@@ -47,7 +47,7 @@ void* PagePool::take(std::size_t bytes) {
   if (bytes > std::numeric_limits<std::size_t>::max() - 2 * alignment) throw std::bad_alloc();
   const std::size_t size = round_up(std::max<std::size_t>(bytes, 1), page_size());
   const std::lock_guard lock(mutex_);
-  pieces_.reserve(pieces_.size() + 2);  // now, as nothing may fail later: one for a rest, one for new pages
+  pieces_.reserve(pieces_.size() + 2);  // now, because nothing may fail later: one for a rest, one for new pages
   std::byte* const block = map_block(size);
   std::size_t filled = 0;
   while (filled < size) {
@@ -77,12 +77,12 @@ bool PagePool::give_back(void* place) noexcept {
   return found;
 }
 
-/// New pages, of which none exists before it is used.
+/// New pages. A page takes no memory before it is used.
 std::byte* PagePool::map_block(std::size_t size) {
   const std::size_t with_margin = size + alignment;
   std::byte* pages = map_pages(with_margin);
   if (pages == nullptr) {
-    unmap_free();  // it counts where the system limits the memory of a process
+    unmap_free();  // free pieces count where the system limits the memory of a process
     pages = map_pages(with_margin);
   }
   if (pages == nullptr) throw std::bad_alloc();

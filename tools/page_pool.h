@@ -18,7 +18,7 @@ class PagePool {
   static constexpr std::size_t alignment = std::size_t{1} << 21;  ///< of blocks; a large page
 
   /// \return a block; what is in it is undefined
-  /// \throw std::bad_alloc  there is not so much memory
+  /// \throw std::bad_alloc  there is not enough memory
   void* take(std::size_t bytes);
 
   /// \return whether a block begins at the place; if not, nothing happens
@@ -29,7 +29,7 @@ class PagePool {
   struct Piece {
     std::byte* begin;
     std::size_t size;
-    std::byte* block;  ///< of which they are a part; null: they are free
+    std::byte* block;  ///< the block that they belong to; null: they are free
   };
 
   // NOLINTBEGIN(cppcoreguidelines-no-malloc): `operator new` would take this memory from this pool

@@ -50,7 +50,7 @@ auto with_progress(const std::string& file, const Run& run) {
     return run(progress);
   } catch (const std::bad_alloc&) {
     throw MemoryError("out of memory in the stage '" + stage + "'", {.file = file},
-                      "allow more memory, use a machine with more, or a coarser model or --edge-length");
+                      "allow more memory, use a machine with more memory, a coarser model or a larger --edge-length");
   }
 }
 

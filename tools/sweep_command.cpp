@@ -63,7 +63,7 @@ bench::RunnerSettings settings_of(const SweepCommand& command, const PreparedSwe
           .retry_failed = command.retry_failed};
 }
 
-/// Gives each case the id that its records carry. Equal inputs make equal cases, of which one remains.
+/// Gives each case the id that its records carry. If equal inputs make equal cases, only the first is kept.
 std::vector<bench::MeasuredCase> identify(bench::Runner& runner, std::vector<sweep::SweepCase>& cases) {
   std::vector<bench::MeasuredCase> loaded = runner.load(sweep::asked_of(cases)), measured;
   std::vector<sweep::SweepCase> different;

@@ -7,8 +7,8 @@ namespace ccdt::tools {
 
 enum class Tone { good, bad, note };
 
-/// The text as a terminal may get it. Texts hold names and contents of files, which could take over a terminal by
-/// control characters: all except line feeds and tabs are written as JSON does, "\u001b".
+/// Makes a text safe for a terminal. Texts may contain names and contents of files, whose control characters could take
+/// over a terminal. All control characters except line feeds and tabs are escaped as in JSON: "\u001b".
 std::string printable(std::string_view text);
 
 /// Prints a text to standard output, `printable`.

@@ -30,7 +30,7 @@ void write_man_pages(const ProgramText& program, const std::filesystem::path& fo
   }
 }
 
-/// What the member of a report can be that has a value of this option.
+/// The schema of the member of a report that holds the value of this option.
 bench::Json schema_of(const baselines::MeshOption& option) {
   bench::Json schema = bench::Json::object();
   if (const auto* choice = std::get_if<baselines::ChoiceKind>(&option.kind); choice == nullptr)

@@ -7,7 +7,7 @@
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
-#include "engine/plc/bent_facets.h"
+#include "engine/plc/warped_facets.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
@@ -37,9 +37,9 @@ bool run(const VerifyCommand& command) {
     TetMesh mesh;
     const auto read_input = [&] {
       input = io::read_plc(command.input);
-      if (auto triangulated = plc::triangulate_bent_facets(input)) input = std::move(*triangulated);
+      if (auto triangulated = plc::triangulate_warped_facets(input)) input = std::move(*triangulated);
     };
-    std::exception_ptr bad_mesh;  // what is wrong with the input comes first
+    std::exception_ptr bad_mesh;  // kept, because errors of the input are reported first
     const auto read_mesh = [&] {
       try {
         mesh = io::read_tet_mesh(command.mesh);
@@ -47,7 +47,7 @@ bool run(const VerifyCommand& command) {
         bad_mesh = std::current_exception();
       }
     };
-    // The caller's thread reads the mesh, because it can use the memory again that this takes.
+    // The mesh is read on the caller's thread, which can reuse the memory that reading takes.
     parallel_both(read_mesh, read_input);
     if (bad_mesh) std::rethrow_exception(bad_mesh);
     return verify::verify(input, mesh, command.options, progress);

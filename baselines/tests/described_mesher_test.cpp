@@ -19,7 +19,7 @@
 namespace ccdt {
 namespace {
 
-/// A mesher of a shell script, which finds the mesh of a cube beside itself.
+/// A mesher made of a shell script, in whose folder there is a mesh of a cube.
 class ScriptMesher : public testing::Test {
  protected:
   ScriptMesher() {

@@ -18,7 +18,7 @@ const Mesher& ccdt_mesher() {
   return baselines::mesher("ccdt");
 }
 
-/// A mesher as TetGen: it knows the lattice only as a wish for interior points.
+/// A mesher like TetGen: from the lattice option it learns only whether interior points are wanted.
 Mesher refiner() {
   Mesher mesher;
   mesher.name = "refiner";
@@ -26,7 +26,7 @@ Mesher refiner() {
   return mesher;
 }
 
-/// A mesher as Mesh_3: it always has interior points.
+/// A mesher like Mesh_3: it always has interior points.
 Mesher remesher() {
   Mesher mesher;
   mesher.name = "remesher";
@@ -164,7 +164,7 @@ TEST(EffectiveOptions, HaveTheSameEffectAgain) {
     }
 }
 
-/// The names that a description makes the mesher use.
+/// The options that a mesher uses according to its description.
 NamedOptions uses(const baselines::MesherDescription& description) {
   NamedOptions names;
   for (const auto& use : baselines::described_mesher(description).options)

@@ -1,7 +1,7 @@
 // What is measured: read_plc and read_tet_mesh, from a file in the system's cache to the surface or mesh in
 // memory. bytes_per_second counts the bytes of the file.
 //
-//   read/surface/FORMAT/sheet/N     a bent sheet of N triangles
+//   read/surface/FORMAT/sheet/N     a curved sheet of N triangles
 //   read/surface/FORMAT/piston/N    the surface of a mesh of about N vertices
 //   read/mesh/FORMAT/piston/N       that mesh
 //   read/surface/FORMAT/FILE, read/mesh/FORMAT/FILE    the same for a file given by --input
@@ -120,7 +120,7 @@ const std::vector<SurfaceFormat>& surface_formats() {
 
 const std::vector<std::string> mesh_endings = {".mesh", ".meshb", ".vtu", ".msh", ".msh4", ".ele"};
 
-/// The file of a subject in a format, written at the first call.
+/// The file of a subject in a format. The first call writes it.
 template <class Write>
 std::filesystem::path file_of(const std::string& name, const std::string& ending, const Write& write) {
   static const Folder folder;
@@ -159,9 +159,9 @@ void add_surface(const std::string& subject, const std::vector<std::int64_t>& si
                 .sizes = sizes,
                 .find_fault = [=](std::int64_t size) -> std::string {
                   const plc::InputPlc read = io::read_plc(file(size)), wanted = surface(size);
-                  if (read.triangles.size() != wanted.triangles.size()) return "other triangles are read";
-                  if (format.keeps_vertices && read.vertices != wanted.vertices) return "other vertices are read";
-                  if (format.keeps_vertices && read.triangles != wanted.triangles) return "other corners are read";
+                  if (read.triangles.size() != wanted.triangles.size()) return "different triangles were read";
+                  if (format.keeps_vertices && read.vertices != wanted.vertices) return "different vertices were read";
+                  if (format.keeps_vertices && read.triangles != wanted.triangles) return "different corners were read";
                   return {};
                 },
                 .measure =
@@ -192,9 +192,9 @@ void add_mesh(const std::string& subject, const std::vector<std::int64_t>& sizes
                 .sizes = sizes,
                 .find_fault = [=](std::int64_t size) -> std::string {
                   const mesh::TetMesh read = io::read_tet_mesh(file(size)), wanted = mesh_of(stages(size));
-                  if (read.vertices != wanted.vertices) return "other vertices are read";
-                  if (read.tetrahedra != wanted.tetrahedra) return "other tetrahedra are read";
-                  return read.faces == wanted.faces ? "" : "other faces are read";
+                  if (read.vertices != wanted.vertices) return "different vertices were read";
+                  if (read.tetrahedra != wanted.tetrahedra) return "different tetrahedra were read";
+                  return read.faces == wanted.faces ? "" : "different faces were read";
                 },
                 .measure =
                     [=](benchmark::State& state, std::int64_t size) {

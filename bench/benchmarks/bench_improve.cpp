@@ -1,4 +1,4 @@
-// What is measured: improve_mesh, from the constrained Delaunay tetrahedralization, complete but for its coordinates,
+// What is measured: improve_mesh, from the constrained Delaunay tetrahedralization, complete except for coordinates,
 // to the improved mesh; all boundary vertices stay. Making and undoing the structure that is improved is included.
 //
 //   improve/swap/...     edges and faces are removed

@@ -15,12 +15,12 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr std::array coarsenings = {3.0, 2.0, 1.0};  ///< of a solid's usual edge length
-constexpr std::array lattices = {Lattice::none, Lattice::fcc};
+constexpr std::array conditions_coarsenings = {3.0, 2.0, 1.0};  ///< of a solid's usual edge length
+constexpr std::array conditions_lattices = {Lattice::none, Lattice::fcc};
 
 using conforming::SphereContent;
 
-std::vector<std::string> definitions() {
+std::vector<std::string> conditions_definitions() {
   return {
       "Radovitzky and Ortiz (2000), in the paper's section 5.2: all minimal circumspheres of the boundary are empty.",
       "The paper says that it is so strict that few bodies fulfill it without transformations and subdivision.",
@@ -86,7 +86,7 @@ ResultTable models_table(std::span<const ConditionsRow> rows) {
        figure_column("theirs", "Radovitzky and Ortiz"),
        figure_column("strictly", "of these, with no vertex on a sphere"), figure_column("theorem", "Theorem 1"),
        figure_column("only_theirs", "only Radovitzky and Ortiz"), figure_column("only_theorem", "only Theorem 1")});
-  for (const Lattice lattice : lattices) add_shares(rows, lattice, table);
+  for (const Lattice lattice : conditions_lattices) add_shares(rows, lattice, table);
   add_shares(rows, {}, table);
   return table;
 }
@@ -159,20 +159,21 @@ void count_violations(const plc::Plc& plc, std::span<const Point3> interior, Con
 
 ExperimentResult conditions_result(std::span<const ConditionsRow> rows) {
   const ResultTable models = models_table(rows);
-  ExperimentResult result{.how = once(), .definitions = definitions(), .tables = {models, cases_table(rows)}};
+  ExperimentResult result{
+      .how = once(), .definitions = conditions_definitions(), .tables = {models, cases_table(rows)}};
   for (const RowView& row : rows_with(models)) result.findings.push_back(finding(row));
   for (const ConditionsRow& row : rows) add_contradictions(row, result);
   return result;
 }
 
 ExperimentResult measure_conditions(const ExperimentOptions& options, bench::Runner& runner) {
-  std::vector<SurfaceFile> files = write_solids(options, "conditions", coarsenings);
+  std::vector<SurfaceFile> files = write_solids(options, "conditions", conditions_coarsenings);
   append(files, parts_that_come_along(options));
   append(files, input_files(options));
   check_something_is_measured(files.size(), "conditions");
   std::vector<ConditionsRow> rows;
   for (const SurfaceFile& file : files)
-    for (const Lattice lattice : lattices) {
+    for (const Lattice lattice : conditions_lattices) {
       const std::string name(name_of(lattice)), at = file.edge_length > 0 ? " at " + rounded(file.edge_length) : "";
       ConditionsRow& row = rows.emplace_back();
       row.model = file.name, row.edge_length = file.edge_length, row.lattice = lattice;

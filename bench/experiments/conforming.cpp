@@ -13,34 +13,34 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr std::array coarsenings = {3.0, 1.0};  ///< of a solid's usual edge length
-constexpr double flattening = 0.3;              ///< factor of z
+constexpr std::array conforming_coarsenings = {3.0, 1.0};  ///< of a solid's usual edge length
+constexpr double flattening = 0.3;                         ///< factor of z
 constexpr std::array protections = {Protection::midpoint, Protection::shell};
 
-/// The search for a conforming one gives up with this many times the vertices of the input, and some more.
+/// The conforming search gives up when it has this many times the vertices of the input, plus some more.
 constexpr std::size_t most_growth = 20, more_vertices = 1000;
 
-std::vector<std::string> definitions() {
+std::vector<std::string> conforming_definitions() {
   return {
       "The paper, section 1: in comparison with a conforming Delaunay tetrahedralization, CCDT adds fewer vertices.",
       "Conforming: all tetrahedra are Delaunay, every segment is a union of their edges, every facet of their faces.",
       "Both start from the vertices of the input alone, and interior points are not counted (--lattice none).",
       "CCDT: the Steiner vertices of ccdt mesh --lattice none --improve none --steiner keep, all on segments.",
-      "The conforming one is ours too, with the same kernel and the same splits of segments, midpoint or shell.",
-      "It splits all missing segments, not the grazeable ones alone.",
+      "The conforming tetrahedralization is also ours: same kernel, same splits of segments (midpoint or shell).",
+      "It splits all missing segments, not only the grazeable ones.",
       "A missing face gets a vertex at its circumcenter (Ruppert 1995, Shewchuk 1998).",
       "If that is beyond a segment of the facet, or in the diametral sphere of one, the segment is split instead.",
-      "Such vertices are added until no segment and no face is missing in the Delaunay tetrahedralization of all.",
-      "Limit: a segment became too short, or there were more than " + std::to_string(most_growth) +
-          " times the vertices of the input and " + with_separators(more_vertices) +
-          "; near small angles this may go on forever, so such cases are shown and not judged.",
+      "Vertices are added until the Delaunay tetrahedralization contains every segment and every face.",
+      "Limit: a segment became too short, or the number of vertices exceeded " + std::to_string(most_growth) +
+          " times that of the input plus " + with_separators(more_vertices) +
+          ". Near small angles the search may never end, so such cases are shown but not judged.",
       "Flattened: z is multiplied by " + rounded(flattening) + ", so that many triangles are thin.",
   };
 }
 
-/// The solids, and the same flattened.
+/// The solids, and flattened copies of them.
 std::vector<SurfaceFile> solids_and_flattened(const ExperimentOptions& options) {
-  std::vector<SurfaceFile> files = write_solids(options, "conforming", coarsenings);
+  std::vector<SurfaceFile> files = write_solids(options, "conforming", conforming_coarsenings);
   const std::size_t solids = files.size();
   for (std::size_t i = 0; i < solids; ++i) {
     SurfaceFile flat = files[i];
@@ -54,7 +54,7 @@ std::vector<SurfaceFile> solids_and_flattened(const ExperimentOptions& options) 
   return files;
 }
 
-/// Counts the vertices of the conforming one. Runs that failed say what is wrong with their input.
+/// Counts the vertices of the conforming tetrahedralization. A run that failed says what is wrong with its input.
 void conform(ConformingRow& row) {
   if (!row.ok()) return;
   const plc::Plc plc = plc::build_plc(io::read_plc(row.measured.asked.input));
@@ -145,7 +145,8 @@ std::string finding(const RowView& row) {
 
 ExperimentResult conforming_result(std::span<const ConformingRow> rows) {
   const ResultTable comparison = comparison_table(rows);
-  ExperimentResult result{.how = once(), .definitions = definitions(), .tables = {comparison, cases_table(rows)}};
+  ExperimentResult result{
+      .how = once(), .definitions = conforming_definitions(), .tables = {comparison, cases_table(rows)}};
   for (const RowView& row : rows_with(comparison)) result.findings.push_back(finding(row));
   for (const ConformingRow& row : rows)
     if (!row.ok()) add_problem(result, row.measured.asked.name + ": " + failure(row.measured), row.edge_length > 0);

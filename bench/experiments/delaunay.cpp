@@ -29,7 +29,7 @@ std::string title_of(const Names& names, const std::string& name) {
   return found == names.end() ? name : found->second;
 }
 
-std::vector<std::string> definitions(const std::string& command) {
+std::vector<std::string> delaunay_definitions(const std::string& command) {
   return {
       "Points: uniformly random in a cube; a perfect face-centered lattice; the vertices of a mesh of a model or file.",
       "Insert: vertex by vertex along a Hilbert curve. Wrap: the paper's method, face by face in a uniform grid.",
@@ -55,7 +55,7 @@ struct Measured {
 
   bool ok() const { return fault.empty() && !seconds.empty(); }
 };
-using Group = std::span<const Measured>;  ///< the methods on the same points
+using DelaunayGroup = std::span<const Measured>;  ///< the methods on the same points
 
 Estimate scaled(const Estimate& e, double factor) {
   return {e.value * factor, e.low * factor, e.high * factor};
@@ -65,18 +65,18 @@ std::optional<Estimate> seconds_of(const Measured& m) {
   return m.ok() ? std::optional(bench::median_estimate(m.seconds)) : std::nullopt;
 }
 
-const Measured* find(Group group, std::string_view method) {
+const Measured* find(DelaunayGroup group, std::string_view method) {
   const auto found = std::ranges::find(group, method, &Measured::method);
   return found != group.end() && found->ok() ? &*found : nullptr;
 }
 
-std::optional<Estimate> ratio(Group group, std::string_view above, std::string_view below) {
+std::optional<Estimate> ratio(DelaunayGroup group, std::string_view above, std::string_view below) {
   const Measured *a = find(group, above), *b = find(group, below);
   if (a == nullptr || b == nullptr || std::ranges::min(b->seconds) <= 0) return {};
   return bench::median_ratio(a->seconds, b->seconds);
 }
 
-const RowColumns<Measured> time_columns = {
+const RowColumns<Measured> delaunay_time_columns = {
     {label_column("points"), &Measured::points},
     {label_column("size"), &Measured::size},
     {label_column("method"), &Measured::method},
@@ -88,14 +88,14 @@ const RowColumns<Measured> time_columns = {
      [](const Measured& m) { return m.ok() ? Cell(scaled(*seconds_of(m), 1e6 / *m.vertices)) : Cell(); }},
     {note_column("reason"), [](const Measured& m) { return cell_if(!m.fault.empty(), m.fault); }}};
 
-RowColumn<Group> ratio_column(const char* name, const char* title, const char* above, const char* below) {
-  return {time_column(name, title), [=](Group group) { return ratio(group, above, below); }};
+RowColumn<DelaunayGroup> ratio_column(const char* name, const char* title, const char* above, const char* below) {
+  return {time_column(name, title), [=](DelaunayGroup group) { return ratio(group, above, below); }};
 }
-const RowColumns<Group> ratio_columns = {
-    {label_column("points"), [](Group group) { return group.front().points; }},
-    {label_column("size"), [](Group group) { return group.front().size; }},
+const RowColumns<DelaunayGroup> delaunay_ratio_columns = {
+    {label_column("points"), [](DelaunayGroup group) { return group.front().points; }},
+    {label_column("size"), [](DelaunayGroup group) { return group.front().size; }},
     {figure_column("vertices"),
-     [](Group group) { return find(group, "insert") ? find(group, "insert")->vertices : std::nullopt; }},
+     [](DelaunayGroup group) { return find(group, "insert") ? find(group, "insert")->vertices : std::nullopt; }},
     ratio_column("insert_over_cgal", "insert / CGAL", "insert", "CGAL"),
     ratio_column("wrap_over_insert", "wrap / insert", "wrap", "insert"),
     ratio_column("tetgen_over_insert", "TetGen / insert", "TetGen", "insert")};
@@ -153,7 +153,7 @@ std::string subject(const Measured& m) {
 }
 
 /// "piston, 10,521 points: insert takes 0.50 [0.49, 0.52] times as long as CGAL: it is faster."
-void add_comparison(Group group, const char* method, const char* other, std::vector<std::string>& findings) {
+void add_comparison(DelaunayGroup group, const char* method, const char* other, std::vector<std::string>& findings) {
   const auto estimate = ratio(group, method, other);
   if (!estimate) return;
   const std::string verdict = is_at_most(*estimate, 1) == BoundTest::holds    ? "it is faster"
@@ -164,7 +164,7 @@ void add_comparison(Group group, const char* method, const char* other, std::vec
 }
 
 /// The growth of the time per vertex from the smallest to the largest set of these points.
-void add_growth(Group small, Group large, std::vector<std::string>& findings) {
+void add_growth(DelaunayGroup small, DelaunayGroup large, std::vector<std::string>& findings) {
   std::vector<std::string> growths;
   for (const auto& [name, method] : methods) {
     const Measured *first = find(small, method), *last = find(large, method);
@@ -178,7 +178,7 @@ void add_growth(Group small, Group large, std::vector<std::string>& findings) {
 }
 
 /// Adds failures, and differences between results that must agree.
-void add_problems(Group group, ExperimentResult& result) {
+void add_problems(DelaunayGroup group, ExperimentResult& result) {
   const Measured* inserted = find(group, "insert");
   for (const Measured& m : group) {
     const bool is_ours = m.method == "insert" || m.method == "wrap", has_no_ties = m.points == sets[0].second;
@@ -190,21 +190,21 @@ void add_problems(Group group, ExperimentResult& result) {
 }
 
 void evaluate(const std::vector<Measured>& all, ExperimentResult& result) {
-  std::vector<Group> groups;
+  std::vector<DelaunayGroup> groups;
   const auto of_one = [](auto member) {
     return [member](const Measured& a, const Measured& b) { return a.*member == b.*member; };
   };
-  for (const Group set : neighbors(Group(all), of_one(&Measured::points))) {
-    const std::vector<Group> sizes = neighbors(set, of_one(&Measured::size));
-    for (const Group group : sizes) add_problems(group, result);
+  for (const DelaunayGroup set : neighbors(DelaunayGroup(all), of_one(&Measured::points))) {
+    const std::vector<DelaunayGroup> sizes = neighbors(set, of_one(&Measured::size));
+    for (const DelaunayGroup group : sizes) add_problems(group, result);
     add_comparison(sizes.back(), "insert", "CGAL", result.findings);
     add_comparison(sizes.back(), "wrap", "insert", result.findings);
     add_comparison(sizes.back(), "TetGen", "insert", result.findings);
     if (sizes.size() > 1) add_growth(sizes.front(), sizes.back(), result.findings);
     append(groups, sizes);
   }
-  result.tables = {table_of_rows("times", "Delaunay tetrahedralization", time_columns, all),
-                   table_of_rows("ratios", "How the times compare", ratio_columns, groups)};
+  result.tables = {table_of_rows("times", "Delaunay tetrahedralization", delaunay_time_columns, all),
+                   table_of_rows("ratios", "How the times compare", delaunay_ratio_columns, groups)};
 }
 
 /// The approximate number of points in the largest sets, for this number of tetrahedra per model. Wrapping takes
@@ -229,7 +229,7 @@ std::vector<std::string> wanted_sets(const ExperimentOptions& options) {
   std::vector<std::string> wanted;
   if (std::ranges::find(options.models, "none") == options.models.end()) wanted = {"random", "lattice"};
   for (const std::string& model : names_of_paper_models())
-    if (options.models.empty() ? model == "piston" : is_asked_for(options, model)) wanted.push_back(model);
+    if (options.models.empty() ? model == "piston" : is_chosen(options, model)) wanted.push_back(model);
   for (const auto& input : options.inputs) wanted.push_back(escaped(input.filename().string()));
   return wanted;
 }
@@ -248,7 +248,7 @@ void add_failure(const ExperimentOptions& options, const baselines::ProcessResul
   for (const std::string& set : wanted_sets(options))
     for (const std::string& method : wanted_methods(options))
       all.push_back({set, "", method, std::string(name_of(child.status)), child.reason});
-  result.tables[0] = table_of_rows("times", result.tables[0].title, time_columns, all);
+  result.tables[0] = table_of_rows("times", result.tables[0].title, delaunay_time_columns, all);
   add_problem(result, std::string(program_name) + " failed: " + child.reason);
 }
 
@@ -305,7 +305,8 @@ ExperimentResult measure_delaunay(const ExperimentOptions& options, bench::Runne
   ExperimentResult result;
   const auto file = options.folder / output_file, program = find_bench_delaunay(options.program);
   check_something_is_measured(wanted_sets(options).size(), "delaunay");
-  result.definitions = definitions(baselines::command_line(bench_delaunay_command(program_name, options, output_file)));
+  result.definitions =
+      delaunay_definitions(baselines::command_line(bench_delaunay_command(program_name, options, output_file)));
   evaluate_delaunay(nothing_measured, result);
   if (program.empty()) {
     std::filesystem::remove(file);

@@ -13,7 +13,7 @@
 namespace ccdt::experiments {
 namespace {
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> density_definitions = {
     "Uniform: a cube with a square grid on each face, and a lattice of the same edge length.",
     "Graded: a cube whose squares shrink 128-fold toward a corner, and a lattice whose edges grow inward.",
     "The graded cube's edges keep their ratios at all sizes.",
@@ -21,9 +21,9 @@ const std::vector<std::string> definitions = {
     "All faces go through the front (--face-protection off).",
     "Work: exact counts of what the front did, over the number of its tetrahedra. They have no noise.",
     "Candidates: vertices that were tried as an apex. Visibility tests: faces tested because they may hide one.",
-    "Grid cells are shown, not judged: what a cell holds costs, and is counted as candidates and tests.",
+    "Grid cells are shown, not judged: the cost is in what a cell holds, which counts as candidates and tests.",
     "Exponent: slope of the logarithms, with the interval of Student's t for 95%.",
-    "At uniform density a fit is judged from three decades and eight sizes on.",
+    "At uniform density, a fit is judged if it spans at least three decades and eight sizes.",
     "At graded density, where work grows quadratically, one decade and four sizes show that it is not linear.",
 };
 
@@ -55,7 +55,7 @@ std::vector<int> divisions_of(const DensitySeries& series, double wanted) {
   return divisions;
 }
 
-using Series = std::span<const DensityRow>;
+using DensitySeries = std::span<const DensityRow>;
 
 struct FrontWork {
   const char* name;
@@ -75,7 +75,7 @@ double tetrahedra_of(const DensityRow& row) {
 
 /// The growth of a count in a series.
 struct DensityFit : Fit {
-  Series series;
+  DensitySeries series;
 };
 std::vector<std::string> runs_of(const DensityFit& fit) {
   return all_runs_of(fit.series);
@@ -98,7 +98,7 @@ RowColumn<DensityRow> per_tetrahedron(const char* name, const char* title, const
           }};
 }
 
-const RowColumns<DensityRow> point_columns = {
+const RowColumns<DensityRow> density_point_columns = {
     {label_column("density"), &DensityRow::density},
     {label_column("locator"), &DensityRow::locator},
     status_column(),
@@ -110,7 +110,7 @@ const RowColumns<DensityRow> point_columns = {
     per_tetrahedron("grid_cells", "grid cells, per tetrahedron", front_works[2]),
     reason_column()};
 
-void add_fit(Series series, const FrontWork& work, std::vector<DensityFit>& fits) {
+void add_fit(DensitySeries series, const FrontWork& work, std::vector<DensityFit>& fits) {
   std::vector<double> sizes, counts;
   for (const DensityRow& row : series) {
     if (!row.ok()) continue;
@@ -148,9 +148,9 @@ void plan_series(const ExperimentOptions& options, const DensitySeries& series, 
 }  // namespace
 
 ExperimentResult density_result(std::span<const DensityRow> rows) {
-  ExperimentResult result{.how = once(), .definitions = definitions};
+  ExperimentResult result{.how = once(), .definitions = density_definitions};
   std::vector<DensityFit> fits;
-  for (const Series series : neighbors(rows, [](const DensityRow&a, const DensityRow&b) {
+  for (const DensitySeries series : neighbors(rows, [](const DensityRow&a, const DensityRow&b) {
          return a.density == b.density && a.locator == b.locator;
        }))
     for (const FrontWork& work : front_works) add_fit(series, work, fits);
@@ -158,7 +158,7 @@ ExperimentResult density_result(std::span<const DensityRow> rows) {
     if (fit.is_judged()) result.findings.push_back(finding_of(fit));
   if (result.findings.empty()) result.findings.push_back("no fit is judged: the range of sizes is too short");
   result.tables = {table_of_rows("growth", "Growth of exact counts of the front", density_fit_columns(), fits),
-                   table_of_rows("work", "Work per tetrahedron of the front", point_columns, rows)};
+                   table_of_rows("work", "Work per tetrahedron of the front", density_point_columns, rows)};
   for (const DensityRow& row : rows) add_problem_of(row, result);
   return result;
 }
@@ -166,7 +166,7 @@ ExperimentResult density_result(std::span<const DensityRow> rows) {
 ExperimentResult measure_density(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<DensityRow> rows;
   for (const DensitySeries& series : all_series)
-    if (is_asked_for(options, series.solid)) plan_series(options, series, rows);
+    if (is_chosen(options, series.solid)) plan_series(options, series, rows);
   check_something_is_measured(rows.size(), "density");
   measure_rows(runner, rows);
   return density_result(rows);

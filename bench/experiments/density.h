@@ -15,17 +15,18 @@ struct DensityRow : CaseRow {
   double edge_length = 0;  ///< the longest, in edges of the cube
 };
 
-/// Is the work of the front linear only at uniform density (paper, sections 1, 4 and 6)? Exact counts of the front over
-/// the number of its tetrahedra, without the check: of a cube with even edges and one whose edges shrink 128-fold
-/// toward a corner, both by the paper's strategies, and of the second with our octree.
+/// Is the work of the front linear only at uniform density (paper, sections 1, 4 and 6)? Divides exact counts of the
+/// front by the number of its tetrahedra, without the check. The inputs are a cube with even edges and one whose edges
+/// shrink 128-fold toward a corner, both with the paper's strategies; the second also with our octree.
 ExperimentResult measure_density(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by density and locator, from the coarsest size
 ExperimentResult density_result(std::span<const DensityRow> rows);
 
-/// What a fit at graded density needs to decide that growth is steep. Quadratic work over the three decades that a fit
-/// needs to be called linear would take a million times that of the smallest size. The sizes scatter, because the cells
-/// of the grid lie differently around the corner; the interval of the exponent contains that.
+/// What a fit at graded density needs to decide that growth is steep. It need not span three decades, as a fit that is
+/// called linear must: quadratic work over three decades would take a million times the work of the smallest size. The
+/// sizes scatter, because the cells of the grid lie differently around the corner; the interval of the exponent
+/// includes this scatter.
 inline constexpr FitRule rule_for_steep_work = {.least_decades = 1, .least_sizes = 4, .most_scatter = 0.3};
 
 }  // namespace ccdt::experiments

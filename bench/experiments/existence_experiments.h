@@ -59,8 +59,8 @@ struct InteriorRow : CaseRow {
   Lattice lattice = Lattice::fcc;
 };
 
-/// Tests the paper's statement that interior points never do harm (section 3): by exhaustive search on small PLCs, and
-/// by meshing all solids at several edge lengths and the user's files with all lattices and rules. Each is meshed once,
+/// Tests the paper's statement that interior points never do harm (section 3). Searches small PLCs exhaustively, and
+/// meshes the user's files, and all solids at several edge lengths, with all lattices and rules. Each is meshed once,
 /// because the counts are always the same.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
@@ -69,20 +69,21 @@ ExperimentResult measure_interior_points(const ExperimentOptions& options, bench
 ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
                                         std::span<const small_plcs::ExistenceTrials> trials);
 
-/// One input, with the Steiner vertices that a conforming Delaunay tetrahedralization needs; those of ours are in the
-/// counts of its run.
+/// One input, with the Steiner vertices that a conforming Delaunay tetrahedralization needs. The number that the CDT
+/// needs is in the counts of its run.
 struct ConformingRow : CaseRow {
   std::string model;
   double edge_length = 0;  ///< of one of our solids; 0: a file
   Protection protection = Protection::midpoint;
   std::uint64_t missing_segments = 0,
                 missing_faces = 0;               ///< in the Delaunay tetrahedralization of the input's vertices
-  std::uint64_t on_segments = 0, in_facets = 0;  ///< Steiner vertices of the conforming one
+  std::uint64_t on_segments = 0, in_facets = 0;  ///< Steiner vertices of the conforming tetrahedralization
   bool is_conforming = false;                    ///< it was found within its limits
 };
 
-/// Counts the Steiner vertices of ours beside those of a conforming Delaunay tetrahedralization (paper, section 1:
-/// "CCDT adds fewer vertices"), for our solids, the same flattened, the parts that come along, and the user's files.
+/// Compares the Steiner vertices of our CDT with those of a conforming Delaunay tetrahedralization (paper, section 1:
+/// "CCDT adds fewer vertices"). The inputs are our solids, also flattened, the parts in the repository, and the user's
+/// files.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the chosen models is part of it
@@ -105,12 +106,12 @@ struct ConditionsRow : CaseRow {
   bool fulfills_theorem() const { return undelaunay == 0 && missing_edges == 0; }
 };
 
-/// Finds what a PLC with these interior points (grid units) has against both conditions.
+/// Finds the violations of both conditions in a PLC with these interior points (grid units).
 void count_violations(const plc::Plc& plc, std::span<const Point3> interior, ConditionsRow& row);
 
-/// Counts the models that fulfill the condition of Radovitzky and Ortiz (2000), and those that fulfill Theorem 1's
-/// (paper, section 5.2): our solids, the parts that come along and the user's files, without interior points and with
-/// FCC's.
+/// Counts the models that fulfill the condition of Radovitzky and Ortiz (2000), and those that fulfill the condition of
+/// Theorem 1 (paper, section 5.2). The models are our solids, the parts in the repository and the user's files, each
+/// without interior points and with those of the FCC lattice.
 ///
 /// \throw OutputError  a file of the experiment cannot be written
 /// \throw InputError   none of the chosen models is part of it

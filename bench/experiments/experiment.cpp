@@ -37,7 +37,7 @@ double edge_factor(const ExperimentOptions& options) {
   return std::cbrt(usual_tetrahedra / options.tetrahedra);
 }
 
-bool is_asked_for(const ExperimentOptions& options, std::string_view model) {
+bool is_chosen(const ExperimentOptions& options, std::string_view model) {
   return options.models.empty() || std::ranges::find(options.models, model) != options.models.end();
 }
 
@@ -93,8 +93,8 @@ bool is_short(const ExperimentOptions& options, const bench::MeasuredCase& first
 }
 
 std::string short_case_words(const ExperimentOptions& options) {
-  return "Cases of which " + std::to_string(options.runs) + " runs would take more than " +
-         rounded(budget(options), 2) + " s are run once; their seconds have no interval.";
+  return "A case is run only once, and its seconds have no interval, if " + std::to_string(options.runs) +
+         " runs of it would take more than " + rounded(budget(options), 2) + " s.";
 }
 
 std::string repetition_words(const ExperimentOptions& options, double until) {

@@ -55,11 +55,11 @@ struct ExperimentOptions {
 /// \return      the circumstances before the first run
 Circumstances start_experiment(const ExperimentOptions& options, int runs);
 
-/// The factor for an edge length that makes about 100,000 tetrahedra, to make the wanted number.
+/// The factor by which to multiply an edge length that makes about 100,000 tetrahedra, to get the wanted number.
 double edge_factor(const ExperimentOptions& options);
 
 /// Did the user choose this model?
-bool is_asked_for(const ExperimentOptions& options, std::string_view model);
+bool is_chosen(const ExperimentOptions& options, std::string_view model);
 
 /// Does this build have the mesher, and did the user not exclude it? Ours always takes part.
 bool is_measured(const ExperimentOptions& options, std::string_view mesher);
@@ -95,13 +95,13 @@ bench::Case timed_case(const ExperimentOptions& options, std::string group, cons
 /// Can a case be timed within the budget, by the seconds of its first run? A failed one cannot.
 bool is_short(const ExperimentOptions& options, const bench::MeasuredCase& first);
 
-/// The same as a definition.
+/// The rule of `is_short` in words, for the definitions of an experiment.
 std::string short_case_words(const ExperimentOptions& options);
 
-/// A definition: how often timed cases are run.
+/// How often timed cases are run, in words, for the definitions of an experiment.
 std::string repetition_words(const ExperimentOptions& options, double until = usual_precision);
 
-/// Circumstances with one run per case; the others are the same for all experiments.
+/// Circumstances with one run per case. The other circumstances are the same for all experiments.
 inline Circumstances once() {
   Circumstances how;
   how.runs = 1;

@@ -17,7 +17,7 @@ RowColumn<Row> quality_column(const char* name, const std::function<double(const
   return run_column(figure_column(name, "", unit), [measure](const RunRecord& run) { return measure(run.quality); });
 }
 
-const RowColumns<Row> columns = {
+const RowColumns<Row> fig7_columns = {
     {label_column("model"), [](const Row& row) { return row.surface.name; }},
     status_column(),
     {figure_column("edge_length", "", "mm"), [](const Row& row) { return row.surface.edge_length; }},
@@ -42,7 +42,7 @@ ExperimentResult measure_fig7(const ExperimentOptions& options, bench::Runner& r
                       "In the pictures, all tetrahedra in front of a plane through the middle are left out."}};
   std::vector<Row> rows;
   for (const PaperModel& model : paper_models) {
-    if (!is_asked_for(options, model.name)) continue;
+    if (!is_chosen(options, model.name)) continue;
     const SurfaceFile surface = write_solid(small, "fig7", model.name, model.edge_length);
     bench::Case asked = single_case(options, model.name, "ccdt", surface.file, {});
     asked.mesh_ending = ".vtu";
@@ -56,7 +56,7 @@ ExperimentResult measure_fig7(const ExperimentOptions& options, bench::Runner& r
     result.meshes.push_back(keep_mesh(runner, row.measured, row.surface.name));
     result.meshes.back().is_figure = true;
   }
-  result.tables = {table_of_rows("meshes", "The meshes", columns, rows)};
+  result.tables = {table_of_rows("meshes", "The meshes", fig7_columns, rows)};
   return result;
 }
 

@@ -15,9 +15,9 @@
 namespace ccdt::experiments {
 namespace {
 
-/// The sizes of a model: from a coarse one to a number of tetrahedra, in the wanted number. With the check, each model
-/// covers the three decades that a fit of work needs; without it, which takes ten times as long, only the one with the
-/// fewest vertices.
+/// The sizes of a model, from a coarse one to a number of tetrahedra, given in multiples of the wanted number. With the
+/// check, each model covers the three decades that a fit of work needs. Runs without it take ten times as long, so only
+/// the model with the fewest vertices covers them.
 struct SizeRange {
   std::string_view model;
   double coarsest;  ///< edge length, mm
@@ -25,10 +25,10 @@ struct SizeRange {
 };
 constexpr std::array<SizeRange, 3> ranges = {
     {{"piston", 14, 50, 5}, {"bracket", 7.5, 40, 40}, {"stepping-pole", 6, 70, 12}}};
-/// Where minutes are wanted, not verdicts.
+/// Limits for runs that must take minutes and need no verdicts.
 constexpr double small_scale = 50000, most_at_small_scales = 1.5, coarsest_at_small_scales = 8;
 
-/// A way to mesh, and its largest mesh of a model, in the wanted number of tetrahedra.
+/// A way to mesh, and the size of its largest mesh of a model, in multiples of the wanted number of tetrahedra.
 struct Strategy {
   std::string label, mesher, words;
   bench::SecondsOf seconds = whole_seconds;
@@ -49,28 +49,28 @@ const std::vector<Strategy> strategies = {
 /// From one size to the next, tetrahedra grow by this factor: four sizes in a decade.
 const double step = std::pow(10, 0.25);
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> fig8_definitions = {
     "Models at uniform density: the lattice has the edge length of the surface everywhere (--grading 0).",
     "Seconds of the CDT: the stages delaunay, face_check, front and label of a run.",
     "Paper (--strategies paper): Delaunay face by face in a grid, the front in a grid, the paper's visibility tests.",
     "Default: the engine as it is used, with Delaunay tetrahedralization by insertion and lattice cores.",
     "Delaunay refinement, ours: circumcenters instead of a lattice, on the same surface; seconds of the whole mesh.",
     "Seconds of the other meshers: the call of the library that makes the mesh.",
-    "All strategies and sizes are run in one random order: a drift of the machine is no part of an exponent.",
+    "All strategies and sizes run in one random order, so that a drift of the machine does not change an exponent.",
     "Work: exact counts of what a stage did. They have no noise; the interval of their exponents comes from bends.",
     "Exponent: slope of the logarithms over those of the size, with the interval of Student's t for 95%.",
     "Linear: the whole interval is within 0.1 of 1.",
-    "A fit of times is judged from two decades and eight sizes on, one of work from three decades on.",
+    "A fit of times is judged if it spans two decades and eight sizes; a fit of work, if it spans three decades.",
     "A fit is not judged if the sizes scatter by more than 15% around it.",
-    "Better: n or n log n, whichever makes the measurements at least twenty times as likely; else they cannot tell.",
+    "Better: n or n log n, if one makes the measurements at least twenty times as likely; otherwise undecided.",
     "Wrap's Delaunay stage does not include the tetrahedralization of the input alone, which edge protection needs.",
     "Meshes with more than twice the wanted number of tetrahedra are not verified.",
     "Mesh_3 takes part from 50,000 tetrahedra on (--scale full): because of small features, it cannot make fewer.",
 };
 
-using Series = std::span<const Fig8Row>;
+using Fig8Series = std::span<const Fig8Row>;
 
-/// What grows, of a run.
+/// A measured quantity of a run that grows with the size.
 struct Quantity {
   std::string name;
   const char *kind, *over;  ///< "time" or "work"; "vertices" or "front tetrahedra"
@@ -96,7 +96,7 @@ Quantity work_of(std::string name, Stage stage, std::uint64_t Work::*count, cons
       size};
 }
 
-/// What is fitted of our runs. A stage that did nothing has no fit.
+/// The quantities to fit. A stage that did nothing has no fit.
 std::vector<Quantity> quantities_of(const Fig8Row& row) {
   if (row.measured.asked.mesher != "ccdt" || row.strategy.starts_with("Delaunay refinement"))
     return {time_of("mesh", row.seconds)};
@@ -116,13 +116,13 @@ std::vector<Quantity> quantities_of(const Fig8Row& row) {
 
 /// The growth of a quantity in a series.
 struct SeriesFit : Fit {
-  Series series;
+  Fig8Series series;
   Quantity of;
 };
 
 /// An end of the straight line through the points.
 struct LineEnd {
-  Series series;
+  Fig8Series series;
   double vertices, seconds;
 };
 
@@ -167,7 +167,7 @@ RowColumns<SeriesFit> fit_columns(Column (*exponent_column)(std::string, std::st
   return columns;
 }
 
-const RowColumns<Fig8Row> point_columns =
+const RowColumns<Fig8Row> fig8_point_columns =
     series_columns<Fig8Row>([](const Fig8Row& row) -> const Fig8Row& { return row; },
                             {status_column(),
                              {figure_column("edge_length", "", "mm"), &Fig8Row::edge_length},
@@ -180,7 +180,7 @@ const RowColumns<LineEnd> line_columns = series_columns<LineEnd>(
     first_point,
     {{figure_column("vertices"), &LineEnd::vertices}, {time_column("seconds", "", "s"), &LineEnd::seconds}});
 
-void add_fit(Series series, const Quantity& quantity, std::vector<SeriesFit>& fits) {
+void add_fit(Fig8Series series, const Quantity& quantity, std::vector<SeriesFit>& fits) {
   std::vector<double> sizes, values;
   for (const Fig8Row& row : series) {
     if (!row.ok() || row.measured.counted.empty()) continue;
@@ -265,10 +265,10 @@ void plan_model(const ExperimentOptions& options, const PaperModel& model, std::
 }  // namespace
 
 ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
-  ExperimentResult result{.definitions = definitions};
+  ExperimentResult result{.definitions = fig8_definitions};
   std::vector<SeriesFit> times, work;
   std::vector<LineEnd> lines;
-  for (const Series series : neighbors(
+  for (const Fig8Series series : neighbors(
            rows, [](const Fig8Row&a, const Fig8Row&b) { return a.model == b.model && a.strategy == b.strategy; })) {
     const std::size_t before = times.size();
     for (const Quantity& quantity : quantities_of(series.front()))
@@ -289,7 +289,7 @@ ExperimentResult fig8_result(std::span<const Fig8Row> rows) {
   }
   result.tables = {table_of_rows("work", "Growth of exact counts", fit_columns(figure_column), work),
                    table_of_rows("fits", "Growth of the seconds", fit_columns(time_column), times),
-                   table_of_rows("points", "Seconds against size", point_columns, rows),
+                   table_of_rows("points", "Seconds against size", fig8_point_columns, rows),
                    table_of_rows("lines", "Straight lines through the points", line_columns, lines, true)};
   for (const Fig8Row& row : rows) add_problem_of(row, result);
   return result;
@@ -299,7 +299,7 @@ ExperimentResult measure_fig8(const ExperimentOptions& options, bench::Runner& r
   constexpr double precision = 0;  // six runs are enough: the interval of a fit comes from the scatter of the sizes
   std::vector<Fig8Row> rows;
   for (const PaperModel& model : paper_models)
-    if (is_asked_for(options, model.name)) plan_model(options, model, rows);
+    if (is_chosen(options, model.name)) plan_model(options, model, rows);
   check_something_is_measured(rows.size(), "fig8");
   measure_rows(runner, rows);
   for (Fig8Row& row : rows)

@@ -24,7 +24,7 @@ double variance_around(std::span<const double> sizes, std::span<const double> y,
   return sum / static_cast<double>(rest.size());
 }
 
-/// By the ratio of likelihoods with normal residuals. One law is better if it makes the data twenty times as likely.
+/// Compares likelihoods, for normal residuals. One law is better if it makes the data twenty times as likely.
 Law better_law(std::span<const double> sizes, std::span<const double> y) {
   constexpr double least_ratio = 20;
   const double linear = variance_around(sizes, y, [](double n) { return std::log(n); }),

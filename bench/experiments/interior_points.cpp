@@ -7,9 +7,9 @@
 namespace ccdt::experiments {
 namespace {
 
-constexpr std::array lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
-constexpr double tetrahedra_a_trial = 100;           ///< small PLCs per family for each wanted tetrahedron
-constexpr std::array coarsenings = {4.0, 2.0, 1.0};  ///< of a solid's usual edge length
+constexpr std::array interior_points_lattices = {Lattice::fcc, Lattice::bcc, Lattice::sc};
+constexpr double tetrahedra_per_trial = 100;  ///< small PLCs per family for each wanted tetrahedron
+constexpr std::array interior_points_coarsenings = {4.0, 2.0, 1.0};  ///< of a solid's usual edge length
 
 /// A rule that keeps interior points away from the surface.
 struct InteriorRule {
@@ -24,7 +24,7 @@ const std::vector<InteriorRule>& rules() {
   return all;
 }
 
-std::vector<std::string> definitions() {
+std::vector<std::string> interior_points_definitions() {
   return {
       "The paper, section 3: \"Insertion of interior points does not affect CDT existence.\" It gives no proof.",
       "Family: small random PLCs with a CDT, to which one interior point is added; existence is tested by exhaustion.",
@@ -80,7 +80,7 @@ ResultTable rules_table(const ResultTable& cases) {
             static_cast<std::uint64_t>(harmed));
   };
   for (const InteriorRule& rule : rules()) {
-    for (const Lattice lattice : lattices) {
+    for (const Lattice lattice : interior_points_lattices) {
       const std::string name(name_of(lattice));
       add(rule.name, name, rows_with(cases, {{"rule", rule.name}, {"lattice", name}, {"status", "ok"}}));
     }
@@ -110,7 +110,7 @@ ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
   const ResultTable existence = existence_table(trials), cases = cases_table(rows), by_rule = rules_table(cases);
   const RowViews families = rows_with(existence);
   ExperimentResult result{.how = once(),
-                          .definitions = definitions(),
+                          .definitions = interior_points_definitions(),
                           .tables = {existence, by_rule, cases},
                           .findings = {share_words(sum(families, "lost"), sum(families, "cases")) +
                                        " small PLCs with a CDT have none when one interior point is added"}};
@@ -120,12 +120,12 @@ ExperimentResult interior_points_result(std::span<const InteriorRow> rows,
 }
 
 ExperimentResult measure_interior_points(const ExperimentOptions& options, bench::Runner& runner) {
-  std::vector<SurfaceFile> files = write_solids(options, "interior-points", coarsenings);
+  std::vector<SurfaceFile> files = write_solids(options, "interior-points", interior_points_coarsenings);
   append(files, input_files(options));
   check_something_is_measured(files.size(), "interior-points");
   std::vector<InteriorRow> rows;
   for (const SurfaceFile& file : files)
-    for (const Lattice lattice : lattices)
+    for (const Lattice lattice : interior_points_lattices)
       for (const InteriorRule& rule : rules()) {
         const std::string name(name_of(lattice)), at = file.edge_length > 0 ? " at " + rounded(file.edge_length) : "";
         std::vector<std::string> words = rule.options;
@@ -136,7 +136,7 @@ ExperimentResult measure_interior_points(const ExperimentOptions& options, bench
       }
   measure_rows(runner, rows);
   return interior_points_result(
-      rows, small_plcs::try_interior_points(static_cast<std::uint64_t>(options.tetrahedra / tetrahedra_a_trial)));
+      rows, small_plcs::try_interior_points(static_cast<std::uint64_t>(options.tetrahedra / tetrahedra_per_trial)));
 }
 
 }  // namespace ccdt::experiments

@@ -22,7 +22,7 @@ const std::vector<LocatorsModel> models = {{"piston", 2.3, SurfaceKind::uniform}
                                            {"graded-cube", 0.0625, SurfaceKind::graded},
                                            {"rough-sphere", 0.06, SurfaceKind::rough}};
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> locators_definitions = {
     "Seconds of the front alone, including the construction of the locator.",
     "Check off: every face goes through the front. Check on: only faces that are not Delaunay do.",
     "Uniform: our models of the paper's parts with interior vertices at the density of the surface.",
@@ -31,15 +31,15 @@ const std::vector<std::string> definitions = {
     "Edge ratio: the longest edge of the surface over the shortest.",
     "A ratio is the median of the ratios in rounds. A claim holds if the whole interval is on the right side of 1."};
 
-using Group = std::span<const LocatorsRow>;  ///< grid, octree, cavity
+using LocatorsGroup = std::span<const LocatorsRow>;  ///< grid, octree, cavity
 
 /// A locator compared with the first of its group.
-struct RatioRow : LocatorsRow {
+struct LocatorsRatioRow : LocatorsRow {
   std::string title;
   Estimate value;
-  Group group;
+  LocatorsGroup group;
 };
-std::vector<std::string> runs_of(const RatioRow& row) {
+std::vector<std::string> runs_of(const LocatorsRatioRow& row) {
   return all_runs_of(row.group);
 }
 
@@ -62,17 +62,17 @@ const RowColumns<LocatorsRow> front_columns =
                         count_column("front_tetrahedra", &MeshCounts::front_tetrahedra, "tetrahedra of the front"),
                         reason_column()});
 
-const RowColumns<LocatorsRow> size_columns = columns_of_surface(
+const RowColumns<LocatorsRow> locators_size_columns = columns_of_surface(
     {{figure_column("edge_ratio", "longest edge over shortest"), &LocatorsRow::edge_ratio},
      count_column("vertices", &MeshCounts::vertices),
      count_column("faces", &MeshCounts::faces),
      count_column("undelaunay_faces", &MeshCounts::undelaunay_faces, "faces that are not Delaunay")});
 
-RowColumns<RatioRow> ratio_columns() {
-  RowColumns<RatioRow> columns;
+RowColumns<LocatorsRatioRow> locators_ratio_columns() {
+  RowColumns<LocatorsRatioRow> columns;
   for (const RowColumn<LocatorsRow>& column : columns_of_surface({})) columns.emplace_back(column);
-  append(columns, RowColumns<RatioRow>{{label_column("ratio"), &RatioRow::title},
-                                       {time_column("value", "here"), &RatioRow::value}});
+  append(columns, RowColumns<LocatorsRatioRow>{{label_column("ratio"), &LocatorsRatioRow::title},
+                                               {time_column("value", "here"), &LocatorsRatioRow::value}});
   return columns;
 }
 
@@ -114,7 +114,7 @@ std::vector<LocatorsRow> plan(const ExperimentOptions& options) {
     if (kind == SurfaceKind::rough || kind == SurfaceKind::input) add_group(options, surface, kind, true, rows);
   };
   for (const LocatorsModel& model : models)
-    if (is_asked_for(options, model.name))
+    if (is_chosen(options, model.name))
       add(write_solid(options, "locators", model.name, model.edge_length), model.kind);
   for (const SurfaceFile& input : input_files(options)) add(input, SurfaceKind::input);
   return rows;
@@ -123,13 +123,13 @@ std::vector<LocatorsRow> plan(const ExperimentOptions& options) {
 }  // namespace
 
 ExperimentResult locators_result(std::span<const LocatorsRow> rows) {
-  ExperimentResult result{.definitions = definitions};
+  ExperimentResult result{.definitions = locators_definitions};
   std::vector<LocatorsRow> firsts;
-  std::vector<RatioRow> ratios;
+  std::vector<LocatorsRatioRow> ratios;
   const auto is_same_group = [](const LocatorsRow& a, const LocatorsRow& b) {
     return a.name == b.name && a.face_protection == b.face_protection;
   };
-  for (const Group group : neighbors(rows, is_same_group)) {
+  for (const LocatorsGroup group : neighbors(rows, is_same_group)) {
     firsts.push_back(group.front());
     for (const LocatorsRow& row : group.subspan(1)) {
       const auto ratio = ratio_of(row, group.front());
@@ -141,8 +141,8 @@ ExperimentResult locators_result(std::span<const LocatorsRow> rows) {
   }
   for (const LocatorsRow& row : rows) add_problem_of(row, result);
   result.tables = {table_of_rows("front", "Seconds of the front", front_columns, rows),
-                   table_of_rows("ratios", "Compared with the paper's grid", ratio_columns(), ratios),
-                   table_of_rows("sizes", "The surfaces", size_columns, firsts)};
+                   table_of_rows("ratios", "Compared with the paper's grid", locators_ratio_columns(), ratios),
+                   table_of_rows("sizes", "The surfaces", locators_size_columns, firsts)};
   return result;
 }
 

@@ -10,12 +10,12 @@
 namespace ccdt::experiments {
 namespace {
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> min_sphere_definitions = {
     "Sphere rule: no lattice point is in the smallest sphere of a face, as in the paper (--sphere-factor 1; off: 0).",
     "Clearance rule, ours: no lattice point is nearer to the surface than 0.55 edge lengths (--clearance; off: 0.01).",
     "FCC lattice with the edge length of the surface, unimproved. The claim is about the sphere rule alone.",
     "At the surface: tetrahedra with a vertex on the boundary or an interior facet.",
-    "Slivers: a dihedral angle below 5 degrees. Other limits stand beside it: 10 degrees, and r above 5.",
+    "Slivers: a dihedral angle below 5 degrees. The table also has other limits: 10 degrees, and r above 5.",
     "With an interior vertex: other slivers have all vertices on the surface, which no rule for the lattice moves."};
 
 std::string on_or_off(bool rule) {
@@ -33,7 +33,7 @@ RowColumn<MinSphereRow> per_thousand(const char* name, const char* title, std::u
   return figure_of(figure_column(name, title), [count](const SurfaceSlivers& s) { return s.per_thousand(s.*count); });
 }
 
-const RowColumns<MinSphereRow> columns = {
+const RowColumns<MinSphereRow> min_sphere_columns = {
     {label_column("model"), &MinSphereRow::model},
     {label_column("sphere_rule"), [](const MinSphereRow& row) { return on_or_off(row.sphere_rule); }},
     {label_column("clearance_rule"), [](const MinSphereRow& row) { return on_or_off(row.clearance_rule); }},
@@ -106,7 +106,7 @@ SurfaceSlivers slivers_at_surface(const mesh::TetMesh& mesh) {
 }
 
 ExperimentResult min_sphere_result(std::span<const MinSphereRow> rows) {
-  ExperimentResult result{.how = once(), .definitions = definitions};
+  ExperimentResult result{.how = once(), .definitions = min_sphere_definitions};
   for (const std::span<const MinSphereRow> model :
        neighbors(rows, [](const MinSphereRow&a, const MinSphereRow&b) { return a.model == b.model; })) {
     const auto [with, without] = alone_in(model);
@@ -117,7 +117,7 @@ ExperimentResult min_sphere_result(std::span<const MinSphereRow> rows) {
     result.findings.push_back(model.front().model + ": of 1,000 tetrahedra at the surface, " + share(*with) +
                               " are slivers with the sphere rule alone, and " + share(*without) + " without any rule");
   }
-  result.tables = {table_of_rows("slivers", "Slivers at the surface", columns, rows)};
+  result.tables = {table_of_rows("slivers", "Slivers at the surface", min_sphere_columns, rows)};
   for (const MinSphereRow& row : rows) add_problem_of(row, result);
   return result;
 }
@@ -125,7 +125,7 @@ ExperimentResult min_sphere_result(std::span<const MinSphereRow> rows) {
 ExperimentResult measure_min_sphere(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<MinSphereRow> rows;
   for (const PaperModel& model : paper_models)
-    if (is_asked_for(options, model.name))
+    if (is_chosen(options, model.name))
       plan_surface(options, write_solid(options, "min-sphere", model.name, model.edge_length), rows);
   for (const SurfaceFile& input : input_files(options)) plan_surface(options, input, rows);
   check_something_is_measured(rows.size(), "min-sphere");

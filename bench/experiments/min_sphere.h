@@ -35,9 +35,9 @@ struct MinSphereRow : CaseRow {
   std::optional<SurfaceSlivers> slivers = {};
 };
 
-/// Does the rule of smallest spheres avoid slivers (paper, section 3, after Cavendish, Field and Frey 1985)? Unimproved
-/// FCC meshes of the paper's models and the user's files, with the rule and without it, each with and without our rule
-/// of a clearance.
+/// Does the rule of smallest spheres avoid slivers (paper, section 3, after Cavendish, Field and Frey 1985)? Makes
+/// unimproved FCC meshes of the paper's models and the user's files, with and without this rule, and each with and
+/// without our clearance rule.
 ExperimentResult measure_min_sphere(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by model

@@ -8,7 +8,7 @@
 namespace ccdt::experiments {
 
 /// Compares our meshes with those of other meshers at equal numbers of tetrahedra: ccdt with its FCC lattice, improved
-/// and not, and with BCC; TetGen, Mesh_3 and HXT, as far as the build or the machine has them.
+/// and not, and with BCC; TetGen, Mesh_3 and HXT, if the build or the machine has them.
 ///
 /// \param experiment  begins the names of its files
 StudyPlan mesher_quality_plan(const ExperimentOptions& options, const std::string& experiment,

@@ -26,7 +26,7 @@ constexpr const char* mesh_format = ".vtu";  ///< of meshes that are kept
 std::vector<SurfaceFile> sources_of(const ExperimentOptions& options, const StudyPlan& plan) {
   std::vector<SurfaceFile> sources;
   for (const std::string& model : plan.models)
-    if (is_asked_for(options, model)) sources.push_back({model, {}});
+    if (is_chosen(options, model)) sources.push_back({model, {}});
   append(sources, input_files(options));
   return sources;
 }
@@ -109,7 +109,7 @@ std::vector<double> edge_lengths_of(const SourceStudy& study, const EvenSurface&
   return lengths;
 }
 
-/// Runs every variant once, and those that are short as often as an interval of their time needs.
+/// Runs every variant once. Short ones are repeated until their times have an interval.
 std::vector<bench::MeasuredCase> run_variants(const SourceStudy& study, const EvenSurface& surface,
                                               const std::vector<double>& edge_lengths) {
   std::vector<bench::Case> all;

@@ -16,7 +16,7 @@ namespace ccdt::experiments {
 struct QualityVariant {
   std::string name;                      ///< for people
   std::string mesher;                    ///< as in `--mesher`
-  std::vector<std::string> words;        ///< options of `ccdt mesh`, but for `--edge-length` and `--grading`
+  std::vector<std::string> words;        ///< options of `ccdt mesh`, except `--edge-length` and `--grading`
   std::vector<std::string> labels = {};  ///< labels of its rows: a value for each label of the plan
   bool measures_inside = false;          ///< also measure the tetrahedra away from the surface
 };
@@ -51,8 +51,8 @@ struct InsideQuality {
   bench::Quality quality = {};
 };
 
-/// How far the numbers of tetrahedra of comparable meshes may differ, as a share: if every variant got the edge length
-/// for it, and if all got the same edge length.
+/// How far the numbers of tetrahedra of comparable meshes may differ, as a share: if each variant has its own edge
+/// length, chosen to make the numbers equal, and if all have the same edge length.
 inline constexpr double tolerance_of_equal_counts = 0.03, tolerance_of_one_edge_length = 0.15;
 
 /// A variant on a surface. Seconds are of meshing.

@@ -15,7 +15,7 @@ namespace {
 constexpr const char *surface_alone = "surface alone", *end_to_end = "end to end";
 constexpr unsigned projected_threads = 64;
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> speed_definitions = {
     "Surface alone: a mesh of the input without interior points (--lattice none).",
     "End to end: the surface is kept, the inside gets vertices, and the tetrahedra are improved.",
     "Seconds: meshing alone, without reading and writing.",
@@ -202,7 +202,7 @@ void plan_weak_scaling(const ExperimentOptions& options, const PaperModel& model
 }  // namespace
 
 ExperimentResult speed_result(std::span<const SpeedRow> rows) {
-  ExperimentResult result{.definitions = definitions};
+  ExperimentResult result{.definitions = speed_definitions};
   std::vector<ComparedRow> compared;
   std::vector<SpeedRow> stages;
   std::vector<ScalingRow> scaling;
@@ -225,7 +225,7 @@ ExperimentResult speed_result(std::span<const SpeedRow> rows) {
 ExperimentResult measure_speed(const ExperimentOptions& options, bench::Runner& runner) {
   Plan plan{options};
   for (const PaperModel& model : paper_models) {
-    if (!is_asked_for(options, model.name)) continue;
+    if (!is_chosen(options, model.name)) continue;
     plan_surface(write_solid(options, "speed", model.name, model.edge_length), plan);
     plan_weak_scaling(options, model, plan);
   }

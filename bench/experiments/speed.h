@@ -14,9 +14,9 @@ struct SpeedRow : CaseRow {
   bool is_weak = false;  ///< the number of tetrahedra grows with the threads
 };
 
-/// Measures speed beside other meshers, with memory and quality in the same rows: the surface alone and end to end, on
-/// our models of the paper's parts and the user's files; ccdt on 1, 2, 4, ... threads, also on models that grow with
-/// the threads.
+/// Compares speed, memory and quality with other meshers, for the surface alone and end to end. The inputs are our
+/// models of the paper's parts and the user's files. ccdt runs on 1, 2, 4, ... threads, also on models that grow with
+/// the number of threads.
 ExperimentResult measure_speed(const ExperimentOptions& options, bench::Runner& runner);
 
 ExperimentResult speed_result(std::span<const SpeedRow> rows);

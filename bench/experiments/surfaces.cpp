@@ -32,7 +32,7 @@ std::vector<SurfaceFile> write_solids(const ExperimentOptions& options, const st
                                       std::span<const double> coarsenings) {
   std::vector<SurfaceFile> files;
   for (const models::Solid& solid : models::solids()) {
-    if (!is_asked_for(options, solid.name)) continue;
+    if (!is_chosen(options, solid.name)) continue;
     std::vector<Point3> before;
     for (const double coarsening : coarsenings) {
       const SurfaceFile surface =

@@ -23,7 +23,7 @@ struct Way {
   std::string name, mesher, words;
   Input input = Input::surface;
 };
-const std::vector<Way> ways = {
+const std::vector<Way> table1_ways = {
     {"with_check", "ccdt", "--strategies paper --improve none --steiner keep --face-protection on"},
     {"without_check", "ccdt", "--strategies paper --improve none --steiner keep --face-protection off"},
     {"default_with_check", "ccdt", "--improve none --steiner keep --face-protection on"},
@@ -71,7 +71,7 @@ const std::vector<Ratio> all_ratios = {{"with check / Delaunay", with_check, del
                                        {"default: Delaunay / CGAL Delaunay", default_delaunay, cgal},
                                        {"default: with check / TetGen CDT", default_with_check, tetgen}};
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> table1_definitions = {
     "The models are ours: the paper gives neither the geometry nor the sizes of its three parts.",
     "The first three rows are the paper's algorithm (--strategies paper); the verdicts are about these.",
     "It is Delaunay face by face in a uniform grid, a front in the same grid, its visibility tests, and midpoints.",
@@ -98,7 +98,7 @@ struct TimedRow : CaseRow {
   Timed timed;
   std::optional<double> paper_seconds;
 };
-const RowColumns<TimedRow> time_columns = {
+const RowColumns<TimedRow> table1_time_columns = {
     {label_column("model"), &TimedRow::model},
     {label_column("what", "what is timed"), [](const TimedRow& row) { return row.timed.what; }},
     status_column(),
@@ -108,20 +108,20 @@ const RowColumns<TimedRow> time_columns = {
     count_column("tetrahedra", &MeshCounts::tetrahedra),
     reason_column()};
 
-struct RatioRow {
+struct Table1RatioRow {
   std::string model, title;
   Estimate value;
   std::optional<double> paper;
   std::vector<TimedRow> of;  ///< above, below
 };
-std::vector<std::string> runs_of(const RatioRow& row) {
+std::vector<std::string> runs_of(const Table1RatioRow& row) {
   return all_runs_of(row.of);
 }
-const RowColumns<RatioRow> ratio_columns = {
-    {label_column("model"), &RatioRow::model},
-    {label_column("ratio"), &RatioRow::title},
-    {time_column("value", "here"), &RatioRow::value},
-    {column(ColumnKind::paper, "paper_value", "in the paper"), &RatioRow::paper}};
+const RowColumns<Table1RatioRow> table1_ratio_columns = {
+    {label_column("model"), &Table1RatioRow::model},
+    {label_column("ratio"), &Table1RatioRow::title},
+    {time_column("value", "here"), &Table1RatioRow::value},
+    {column(ColumnKind::paper, "paper_value", "in the paper"), &Table1RatioRow::paper}};
 
 /// Of the run with the check.
 struct ModelRow : CaseRow {
@@ -132,7 +132,7 @@ struct ModelRow : CaseRow {
   bool both_ok() const { return ok() && !without_check.failed(); }
   bool is_same_mesh() const { return measured.first.mesh_fingerprint == without_check.first.mesh_fingerprint; }
 };
-const RowColumns<ModelRow> size_columns = {
+const RowColumns<ModelRow> table1_size_columns = {
     {label_column("model"), &ModelRow::model},
     {figure_column("edge_length", "", "mm"), &ModelRow::edge_length},
     count_column("vertices", &MeshCounts::vertices),
@@ -178,7 +178,7 @@ const RowColumns<WorkRow> work_columns = {
 
 std::vector<WorkRow> work_rows(const Table1Model& model) {
   std::vector<WorkRow> rows;
-  for (const Way& way : ways) {
+  for (const Way& way : table1_ways) {
     const auto measured = model.cases.find(way.name);
     if (way.mesher == "ccdt" && measured != model.cases.end() && !measured->second.failed())
       rows.push_back({{measured->second}, model.name, way.name});
@@ -226,8 +226,8 @@ std::optional<Estimate> divided(const TimedRow& above, const TimedRow& below) {
   return median_of(above.measured, in_a_run);
 }
 
-std::vector<RatioRow> ratio_rows(const std::vector<TimedRow>& rows) {
-  std::vector<RatioRow> ratios;
+std::vector<Table1RatioRow> ratio_rows(const std::vector<TimedRow>& rows) {
+  std::vector<Table1RatioRow> ratios;
   const auto row_of = [&](const std::string& what) {
     return std::ranges::find_if(rows, [&](const TimedRow& row) { return row.timed.what == what; });
   };
@@ -244,7 +244,7 @@ std::vector<RatioRow> ratio_rows(const std::vector<TimedRow>& rows) {
 }
 
 /// Says how much more the front would have to do, or how much faster Delaunay would have to be, for the paper's factor.
-void add_missing_work(const ModelRow& row, const RatioRow& saving, std::vector<std::string>& lines) {
+void add_missing_work(const ModelRow& row, const Table1RatioRow& saving, std::vector<std::string>& lines) {
   const double vertices = static_cast<double>(row.measured.first.counts.vertices),
                tetrahedra = static_cast<double>(row.without_check.first.counts.front_tetrahedra);
   const double delaunay_us = delaunay_cost(row), front_us = front_cost(row);
@@ -261,9 +261,9 @@ void add_missing_work(const ModelRow& row, const RatioRow& saving, std::vector<s
 }
 
 /// Compares our ratios with the paper's.
-void add_differences(const ModelRow& row, const std::vector<RatioRow>& ratios, std::vector<std::string>& lines) {
+void add_differences(const ModelRow& row, const std::vector<Table1RatioRow>& ratios, std::vector<std::string>& lines) {
   const std::string who = row.model + ": ";
-  for (const RatioRow& ratio : ratios) {
+  for (const Table1RatioRow& ratio : ratios) {
     if (!ratio.paper) continue;
     if (ratio.title == all_ratios[0].title)
       lines.push_back(who + "with the check, the CDT takes " + with_interval(ratio.value) +
@@ -297,7 +297,7 @@ Table1Model measure_model(const ExperimentOptions& options, const PaperModel& mo
   io::write_plc(plc, surface);
   std::vector<bench::Case> asked;
   std::filesystem::path vertices;
-  for (const Way& way : ways) {
+  for (const Way& way : table1_ways) {
     if (!is_timed(options, way.mesher)) continue;
     const auto& input = way.input == Way::Input::surface        ? surface
                         : way.input == Way::Input::our_vertices ? vertices
@@ -313,22 +313,22 @@ Table1Model measure_model(const ExperimentOptions& options, const PaperModel& mo
     asked.push_back(timed_case(options, "table1 " + result.name, single, usual_precision, seconds));
   }
   const std::vector<bench::MeasuredCase> measured = runner.run(asked);
-  for (std::size_t i = 0, next = 0; i < ways.size(); ++i)
-    if (is_timed(options, ways[i].mesher)) result.cases[ways[i].name] = measured[next++];
+  for (std::size_t i = 0, next = 0; i < table1_ways.size(); ++i)
+    if (is_timed(options, table1_ways[i].mesher)) result.cases[table1_ways[i].name] = measured[next++];
   return result;
 }
 
 }  // namespace
 
 ExperimentResult table1_result(std::span<const Table1Model> models) {
-  ExperimentResult result{.definitions = definitions};
+  ExperimentResult result{.definitions = table1_definitions};
   std::vector<TimedRow> times;
-  std::vector<RatioRow> ratios;
+  std::vector<Table1RatioRow> ratios;
   std::vector<ModelRow> sizes, costs;
   std::vector<WorkRow> work;
   for (const Table1Model& model : models) {
     const std::vector<TimedRow> rows = timed_rows(model);
-    const std::vector<RatioRow> of_model = ratio_rows(rows);
+    const std::vector<Table1RatioRow> of_model = ratio_rows(rows);
     const ModelRow& size = sizes.emplace_back(
         ModelRow{{model.cases.at("with_check")}, model.name, model.edge_length, model.cases.at("without_check")});
     if (size.both_ok()) costs.push_back(size);
@@ -340,17 +340,18 @@ ExperimentResult table1_result(std::span<const Table1Model> models) {
     if (size.both_ok() && !size.is_same_mesh())
       add_problem(result, model.name + ": the tetrahedra differ with and without the check, which is an error of ccdt");
   }
-  result.tables = {
-      table_of_rows("ratios", "Ratios", ratio_columns, ratios), table_of_rows("times", "Seconds", time_columns, times),
-      table_of_rows("work", "Work", work_columns, work), table_of_rows("sizes", "The meshes", size_columns, sizes),
-      table_of_rows("costs", "Cost per unit of work", cost_columns, costs)};
+  result.tables = {table_of_rows("ratios", "Ratios", table1_ratio_columns, ratios),
+                   table_of_rows("times", "Seconds", table1_time_columns, times),
+                   table_of_rows("work", "Work", work_columns, work),
+                   table_of_rows("sizes", "The meshes", table1_size_columns, sizes),
+                   table_of_rows("costs", "Cost per unit of work", cost_columns, costs)};
   return result;
 }
 
 ExperimentResult measure_table1(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<Table1Model> models;
   for (const PaperModel& model : paper_models)
-    if (is_asked_for(options, model.name)) models.push_back(measure_model(options, model, runner));
+    if (is_chosen(options, model.name)) models.push_back(measure_model(options, model, runner));
   check_something_is_measured(models.size(), "table1");
   ExperimentResult result = table1_result(models);
   result.definitions.push_back(repetition_words(options));

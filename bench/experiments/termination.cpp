@@ -17,8 +17,8 @@ namespace ccdt::experiments {
 namespace {
 
 constexpr std::array angles = {90.0, 60.0, 45.0, 36.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0};
-constexpr std::array coarsenings = {3.0, 1.0};  ///< of a solid's usual edge length
-constexpr std::array ways = {Protection::midpoint, Protection::shell};
+constexpr std::array termination_coarsenings = {3.0, 1.0};  ///< of a solid's usual edge length
+constexpr std::array termination_ways = {Protection::midpoint, Protection::shell};
 
 bool is_star(const TerminationRow& row) {
   return row.group != "solid" && row.group != "file";
@@ -48,7 +48,7 @@ void add_input(const ExperimentOptions& options, const TerminationRow& input, co
                std::vector<TerminationRow>& rows) {
   const std::string name = is_star(input) ? input.group + ", " + input.label : input.label;
   const auto smallest_angle = smallest_angle_of(file);
-  for (const Protection protection : ways) {
+  for (const Protection protection : termination_ways) {
     const std::string way(name_of(protection));
     TerminationRow& row = rows.emplace_back(input);
     row.smallest_angle = smallest_angle;
@@ -77,7 +77,7 @@ void add_star(const ExperimentOptions& options, const models::Star& star, std::v
     }
 }
 
-std::vector<std::string> definitions() {
+std::vector<std::string> termination_definitions() {
   std::vector<std::string> all = {
       "The paper, section 2: midpoints of missing grazeable edges are inserted repeatedly until none is missing.",
       "It does not say that this terminates.",
@@ -133,7 +133,7 @@ ResultTable stars_table(std::span<const TerminationRow> rows) {
        figure_column("shell_deepest_level", "shell: deepest level")});
   const auto add_row_of = [&](const models::Star& star, double degrees) {
     ResultRow made{cells(star.name, degrees)};
-    for (const Protection way : ways) {
+    for (const Protection way : termination_ways) {
       std::uint64_t cases = 0, ended = 0, steiner = 0, deepest = 0;
       for (const TerminationRow& row : rows) {
         if (row.group != star.name || row.degrees != degrees || row.protection != way) continue;
@@ -144,7 +144,7 @@ ResultTable stars_table(std::span<const TerminationRow> rows) {
         steiner = std::max(steiner, row.measured.first.counts.steiner_vertices);
         deepest = std::max<std::uint64_t>(deepest, row.measured.first.counts.splits_by_level.size());
       }
-      if (way == ways.front()) made.cells.push_back(as_cell(cases));
+      if (way == termination_ways.front()) made.cells.push_back(as_cell(cases));
       append(made.cells, cells(ended, cell_if(ended > 0, steiner), cell_if(ended > 0, deepest)));
     }
     if (!made.runs.empty()) table.rows.push_back(std::move(made));
@@ -181,7 +181,8 @@ void add_share(const std::string& what, const ResultTable& runs, Protection way,
 ExperimentResult termination_result(std::span<const TerminationRow> rows) {
   const ResultTable stars = stars_table(rows), solids = runs_table("solids", "Solids and files", rows, false),
                     star_runs = runs_table("star_runs", "Each run on a star", rows, true);
-  ExperimentResult result{.how = once(), .definitions = definitions(), .tables = {stars, solids, star_runs}};
+  ExperimentResult result{
+      .how = once(), .definitions = termination_definitions(), .tables = {stars, solids, star_runs}};
   for (const models::Star& star : models::stars()) {
     const std::string name(star.name);
     const RowViews rows_of_star = rows_with(stars, {{"star", name}});
@@ -199,8 +200,8 @@ ExperimentResult termination_result(std::span<const TerminationRow> rows) {
 ExperimentResult measure_termination(const ExperimentOptions& options, bench::Runner& runner) {
   std::vector<TerminationRow> rows;
   for (const models::Star& star : models::stars())
-    if (is_asked_for(options, star.name)) add_star(options, star, rows);
-  for (const SurfaceFile& surface : write_solids(options, "termination", coarsenings))
+    if (is_chosen(options, star.name)) add_star(options, star, rows);
+  for (const SurfaceFile& surface : write_solids(options, "termination", termination_coarsenings))
     add_input(options, {{}, "solid", surface.name + " at " + rounded(surface.edge_length)}, surface.file, rows);
   for (const SurfaceFile& surface : input_files(options))
     add_input(options, {{}, "file", surface.name}, surface.file, rows);

@@ -43,7 +43,7 @@ std::string model_file(const Family& family) {
   return "models/theorem1-" + name + ".poly";
 }
 
-std::vector<std::string> definitions() {
+std::vector<std::string> theorem1_definitions() {
   std::vector<std::string> all = {
       "Theorem 1: \"If and only if a model X is grazeable edge protected and face protected, X has a DT.\"",
       "A DT is a constrained Delaunay tetrahedralization (CDT) whose tetrahedra are all Delaunay.",
@@ -118,7 +118,7 @@ void add_trial(const Trial& trial, FamilyTrials& trials) {
 }
 
 ExperimentResult theorem1_result(std::span<const FamilyTrials> families) {
-  ExperimentResult result{.how = once(), .definitions = definitions(), .tables = {families_table(families)}};
+  ExperimentResult result{.how = once(), .definitions = theorem1_definitions(), .tables = {families_table(families)}};
   result.findings = findings_of(result.tables.front());
   for (const FamilyTrials& trials : families)
     if (trials.disagreements > 0)

@@ -38,9 +38,9 @@ struct Fig8Row : CaseRow {
   double edge_length = 0;  ///< units of the model
 };
 
-/// Measures work and time against size at uniform density (paper, Fig. 8): our models in steps of a quarter
-/// decade, over two decades and one of them over three, as far as the scale allows. All sizes and strategies are run in
-/// one random order.
+/// Measures work and time against size at uniform density (paper, Fig. 8). If the scale allows, the sizes of our models
+/// cover two decades, and those of one model three, in steps of a quarter decade. All sizes and strategies run in one
+/// random order.
 ExperimentResult measure_fig8(const ExperimentOptions& options, bench::Runner& runner);
 
 /// \param rows  grouped by model and strategy, from the coarsest size

@@ -182,7 +182,7 @@ std::vector<std::string> unit_cell_definitions() {
       "The paper, section 3: in a unit cell, the tetrahedra of FCC are better than those of the 13 other lattices.",
       "It cites Radovitzky and Ortiz (2000), who have an aspect ratio of their own; here r and other measures decide.",
       "Unit cells: the Delaunay tetrahedra of one period, computed in whole numbers; they fill its volume.",
-      "Free parameters have the values of the least worst r; a lattice includes those of higher symmetry.",
+      "Free parameters have the values that minimize the worst r; a lattice includes those of higher symmetry.",
       "So seven lattices become body-centered cubic, which is the optimum of all lattices, and others simple cubic.",
       "Points on one empty sphere: each Delaunay polytope gets the triangulation with the least worst r.",
       "That is five tetrahedra for a cube. The octahedron of FCC has the same tetrahedra for every diagonal.",

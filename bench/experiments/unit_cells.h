@@ -11,11 +11,11 @@ namespace ccdt::experiments {
 /// lattice. Always the same.
 ResultTable unit_cells_table();
 
-/// FCC beside the best of the other lattices, by each criterion: the mean and the worst r first.
+/// Compares FCC with the best of the other lattices by each criterion, beginning with the mean and the worst r.
 /// \param unit_cells  as `unit_cells_table` makes it
 ResultTable unit_cell_criteria_table(const ResultTable& unit_cells);
 
-/// By which criteria is FCC the best, and which lattice is it by the others?
+/// States by which criteria FCC is the best lattice, and which lattice is the best by the other criteria.
 std::vector<std::string> unit_cell_findings(const ResultTable& table);
 
 /// What the two tables mean, and the rule of the verdict.

@@ -16,15 +16,15 @@
 namespace ccdt::experiments {
 namespace {
 
-const std::vector<std::string> definitions = {
+const std::vector<std::string> visibility_cost_definitions = {
     "The paper's strategies (--strategies paper), and every face goes through the front (--face-protection off).",
     "Instructions: machine instructions of one run, counted by callgrind. They have no noise.",
-    "Visibility tests: instructions of the exact tests whether a face hides a vertex, and of what they call.",
-    "Share: from the tests alone to the whole front. The look-up of the faces that are tested is in between.",
+    "Visibility tests: instructions of the exact tests of whether a face hides a vertex, and of what they call.",
+    "Share: a range, from the tests alone to the whole front. With the search for the faces to test, it is in between.",
     "CDT: Delaunay, face check, front and labels.",
-    "Callgrind is 50 times as slow: the models have an eighth of the wanted tetrahedra, if they can be as coarse."};
+    "Callgrind is 50 times as slow, so the models have an eighth of the wanted tetrahedra, if they can be so coarse."};
 
-/// The share of callgrind's wanted size in the wanted number of tetrahedra.
+/// The wanted size of a mesh under callgrind, as a share of the wanted number of tetrahedra.
 constexpr double share_of_size = 0.125;
 
 RowColumn<VisibilityCostRow> count_of(const char* name, const char* title,
@@ -40,7 +40,7 @@ std::string counted_status(const VisibilityCostRow& row) {
   return row.instructions ? "ok" : "missing";
 }
 
-const RowColumns<VisibilityCostRow> columns = {
+const RowColumns<VisibilityCostRow> visibility_cost_columns = {
     {label_column("model"), &VisibilityCostRow::model},
     {label_column("status"), counted_status},
     count_column("front_tetrahedra", &MeshCounts::front_tetrahedra, "tetrahedra of the front"),
@@ -124,7 +124,7 @@ CdtInstructions cdt_instructions(std::string_view profile) {
 }
 
 ExperimentResult visibility_cost_result(std::span<const VisibilityCostRow> rows) {
-  ExperimentResult result{.how = once(), .definitions = definitions};
+  ExperimentResult result{.how = once(), .definitions = visibility_cost_definitions};
   for (const VisibilityCostRow& row : rows) {
     add_problem_of(row, result);
     if (row.ok() && !row.instructions) add_problem(result, row.model + ": " + row.why_missing, false);
@@ -137,7 +137,8 @@ ExperimentResult visibility_cost_result(std::span<const VisibilityCostRow> rows)
                               " times those of the largest other part; the whole front takes " +
                               rounded(100 * share.high) + "%");
   }
-  result.tables = {table_of_rows("instructions", "Where the instructions of the CDT go", columns, rows)};
+  result.tables = {
+      table_of_rows("instructions", "Where the instructions of the CDT go", visibility_cost_columns, rows)};
   return result;
 }
 
@@ -146,7 +147,7 @@ ExperimentResult measure_visibility_cost(const ExperimentOptions& options, bench
   ExperimentOptions smaller = options;
   smaller.tetrahedra *= share_of_size;
   for (const PaperModel& model : paper_models) {
-    if (!is_asked_for(options, model.name)) continue;
+    if (!is_chosen(options, model.name)) continue;
     const SurfaceFile surface = write_solid(smaller, "visibility-cost", model.name, model.edge_length);
     VisibilityCostRow& row = rows.emplace_back();
     row.model = model.name;

@@ -19,8 +19,8 @@ struct CdtInstructions {
 
   std::uint64_t cdt() const { return delaunay + front + others; }
 
-  /// The share of visibility in the CDT: that of the tests, up to that of the whole front. The truth is between,
-  /// because faces that may hide a vertex are looked up by the functions that also look up candidates.
+  /// The share of visibility in the CDT, as a range from the tests alone to the whole front. The true share is in
+  /// between, because the functions that look up faces that may hide a vertex also look up candidates.
   Estimate visibility_share() const;
 };
 

@@ -188,9 +188,8 @@ int pairs_needed(const CaseNoise& noise, std::span<const Pair> pairs, const Time
 /// Subtracts from the log ratio of each pair the mean of its layout.
 ///
 /// \return  the standard deviation of log time between builds, by the analysis of variance of one random effect
-/// (Searle,
-///          Casella, McCulloch 1992, section 3.6); none with fewer than two layouts
-std::optional<double> take_out_layouts(std::span<const Pair> pairs, std::vector<double>& ratios) {
+///          (Searle, Casella, McCulloch 1992, section 3.6); none with fewer than two layouts
+std::optional<double> remove_layout_means(std::span<const Pair> pairs, std::vector<double>& ratios) {
   std::map<int, std::vector<std::size_t>> layouts;
   for (std::size_t i = 0; i < pairs.size(); ++i) layouts[pairs[i].layout].push_back(i);
   const auto count = static_cast<double>(layouts.size()), all = static_cast<double>(ratios.size());
@@ -222,7 +221,7 @@ CaseNoise noise_of(const PairedSamples& samples, const TimeRules& rules, std::ui
   noise.case_name = samples.case_name;
   noise.figure = samples.figure;
   noise.log_ratios = log_ratios(samples.screening);
-  noise.layout_deviation = take_out_layouts(samples.screening, noise.log_ratios);
+  noise.layout_deviation = remove_layout_means(samples.screening, noise.log_ratios);
   noise.seconds = bench::median(seconds_of(samples.screening, Side::base));
   noise.deviation = bench::standard_deviation(noise.log_ratios);
   noise.robust_deviation = bench::robust_deviation(noise.log_ratios);

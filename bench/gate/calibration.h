@@ -64,7 +64,7 @@ class TooFewSamples : public InputError {
   int needed_;
 };
 
-/// Rules by which a measurement takes just this many pairs of each case, of both sides of one program.
+/// Rules that make a measurement take exactly this many pairs of each case, with the same program on both sides.
 Rules rules_of_calibration(const Rules& rules, int pairs);
 
 /// The calibration from the pairs; program and identity are left empty.

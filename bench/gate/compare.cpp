@@ -13,7 +13,7 @@
 namespace ccdt::gate {
 namespace {
 
-constexpr double lost_badness = std::numeric_limits<double>::max();  ///< before all figures with a size
+constexpr double badness_of_lost = std::numeric_limits<double>::max();  ///< sorts lost figures before all others
 
 bool is_whole(double value) {
   return value == std::floor(value);
@@ -45,7 +45,7 @@ JudgedFigure lost(const Figure& base, const CaseFigures& one) {
   JudgedFigure judged = start(base, {base.name, base.layer, {}, "missing"}, one);
   judged.verdict = Judgment::worse;
   judged.changed = true;
-  judged.badness = lost_badness;
+  judged.badness = badness_of_lost;
   judged.words = "is in the base only";
   return judged;
 }
@@ -86,7 +86,7 @@ void judge_numbers(const ExactRules& rules, JudgedFigure& judged) {
   } else {
     judged.verdict = Judgment::worse;
     judged.words = better == Better::same ? "must stay the same; exact" : "exact";
-    judged.badness = std::min(badness_of(base, head), lost_badness / 2);
+    judged.badness = std::min(badness_of(base, head), badness_of_lost / 2);
   }
 }
 
@@ -181,7 +181,7 @@ std::optional<JudgedFigure> judge_status(const CaseFigures& base, const CaseFigu
     return judged;
   }
   judged.verdict = Judgment::worse;
-  judged.badness = lost_badness;
+  judged.badness = badness_of_lost;
   const Figure* kind = find_figure(head, "kind");
   judged.words = kind == nullptr ? "failed" : "failed: " + kind->text;
   return judged;
@@ -269,7 +269,7 @@ std::vector<JudgedFigure> list_times(const Recording& base, const Recording& hea
   return all;
 }
 
-/// Two recordings of one command each are compared whatever their names: "old/run" and "new/run".
+/// If each recording has one command, they are compared even if their names differ: "old/run" and "new/run".
 Recording with_name_of(const Recording& head, const Recording& base) {
   Recording named = base;
   const bool are_commands = base.kind == Source::hyperfine && head.kind == Source::hyperfine;
@@ -343,7 +343,7 @@ std::vector<JudgedFigure> compare_instructions(const Recording& base, const Reco
         continue;
       all.push_back(difference.empty() ? judge_instructions(*before, figure, one, rules)
                                        : not_gated(start(*before, figure, one), difference));
-      // Who asks for this layer must get a verdict on it.
+      // A user who asks for this layer must get a verdict on it.
       if (!difference.empty()) all.back().is_gated = rules.layers_are_chosen;
     }
   }

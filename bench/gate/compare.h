@@ -8,15 +8,14 @@
 
 namespace ccdt::gate {
 
-/// Compares the recordings of two programs as far as possible: exact figures always, instruction counts if they were
-/// made under the same conditions, times never.
+/// Compares the recordings of two programs: exact figures always, instruction counts if they were made under the same
+/// conditions, times never. If the recordings have no case in common, nothing is compared.
 ///
 /// \param recorded  the base
-/// If two recordings have no case in common, nothing is compared.
 std::vector<JudgedFigure> compare_recordings(const Recording& recorded, const Recording& head, const Rules& rules);
 
-/// Compares the exact figures only. A counter that is a whole number in the base must stay the same; another one is
-/// judged if a rule names it (`has_rule`), and is otherwise listed as not gated.
+/// Compares the exact figures only. A counter that is a whole number in the base must stay the same. Any other counter
+/// is judged if a rule names it (`has_rule`), and is otherwise listed as not gated.
 std::vector<JudgedFigure> compare_exact(const Recording& base, const Recording& head, const Rules& rules);
 
 /// Compares the instruction counts only.

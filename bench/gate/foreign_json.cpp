@@ -50,7 +50,7 @@ void add_sample(const std::string& name, Layer layer, const Json& value, CaseFig
   if (known->text.empty())
     known->text = text;
   else if (known->text != text)
-    known->text += " or " + text;  // and so equal to no other
+    known->text += " or " + text;  // which is not equal to any other text
 }
 
 /// Programs older than 1.5 do not say which entries are aggregates.

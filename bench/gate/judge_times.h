@@ -16,7 +16,7 @@ namespace ccdt::gate {
 /// Describes the correction for the number of cases, for `Verdict::correction`.
 std::string correction_words();
 
-/// What bounds the precision of a case of these samples.
+/// What limits the precision of a case of these samples.
 /// \param calibration  may be null: then no threshold is raised by it
 Precision precision_of(const PairedSamples& one, const SampleSet& all, const Rules& rules,
                        const Calibration* calibration);
@@ -25,7 +25,7 @@ Precision precision_of(const PairedSamples& one, const SampleSet& all, const Rul
 /// \pre it has some
 Look screen(const PairedSamples& one, const SampleSet& all, const Rules& rules, const Calibration* calibration);
 
-/// Looks at the fresh pairs of a suspect. The threshold is that of the screening.
+/// Looks at the new pairs of a suspect. The threshold is that of the screening.
 /// \param suspects  how many there are
 Look confirm(const PairedSamples& one, const Look& screening, int suspects, const Rules& rules, std::uint64_t seed);
 

@@ -38,7 +38,7 @@ std::function<fs::path(Side, int layout)> layout_builder(const std::string& comm
                        io::place_in(log.string()),
                        "run it by hand with the variables that the documentation of gates names");
     if (!is_program(built))
-      throw InputError("--rebuild: the command ended well, but wrote no program", io::place_in(built.string()),
+      throw InputError("--rebuild: the command succeeded but wrote no program", io::place_in(built.string()),
                        "let it write the program to $CCDT_GATE_OUTPUT");
     return built;
   };

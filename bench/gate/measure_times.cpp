@@ -158,7 +158,7 @@ class Measurement {
     return options_.most_seconds > 0 ? options_.most_seconds : cases.most_seconds[side == Side::head];
   }
 
-  /// The head may not take for ever, but far longer than the base.
+  /// The head may take far longer than the base, but not forever.
   static std::array<double, 2> limits_after(const Attempt& base) {
     if (!base.failure.empty()) return {};
     const double most = std::max(least_patience, patience * base.seconds);
@@ -321,7 +321,7 @@ class Measurement {
     options_.progress(progress);
   }
 
-  /// How many pairs the screening of a case will take, as far as its noise so far tells.
+  /// How many pairs the screening of a case will take, estimated from its noise so far.
   int expected_pairs(std::size_t i) const {
     const auto pairs = static_cast<int>(all_.cases[i].screening.size());
     const TimeRules& rules = time_rules(i);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double clock_steps = 2;          ///< a time is the difference of two readings
 constexpr double bluntest = 0.5;           ///< largest slowdown that a threshold may let pass
-constexpr double layout_alarms = 0.02;     ///< share of gates with a false alarm because code lies elsewhere
+constexpr double layout_alarms = 0.02;     ///< share of gates with a false alarm because of layouts
 constexpr double wanted_power = 0.95;      ///< share of gates that find the smallest slowdown
 constexpr std::size_t fewest_layouts = 4;  ///< with fewer, nothing is trimmed, and Student's t is very wide
 

@@ -12,7 +12,7 @@
 
 namespace ccdt::gate {
 
-/// What is dropped at each end of ratios before their mean (Wilcox 2017, section 3.3).
+/// The share of the ratios that a trimmed mean drops at each end (Wilcox 2017, section 3.3).
 inline constexpr double trimmed_share = 0.2;
 
 /// Which of the two programs.
@@ -22,11 +22,11 @@ constexpr auto names_of(Side) {
   return std::to_array<NamedValue<Side>>({{Side::base, "base"}, {Side::head, "head"}});
 }
 
-/// Both programs once, one right after the other.
+/// One run of each program, one right after the other.
 struct Pair {
   double base = 0, head = 0;  ///< seconds
   bool head_first = false;
-  int layout = 0;  ///< number of the build, of both programs
+  int layout = 0;  ///< number of the build; the same for both programs
 
   bool operator==(const Pair&) const = default;
 };
@@ -36,7 +36,7 @@ struct PairedCounter {
   std::vector<double> base, head;
 };
 
-/// All that was measured of one case. The times of the confirmation are fresh.
+/// Everything measured for one case. The confirmation has new times, not those of the screening.
 struct PairedSamples {
   std::string case_name;
   std::string figure;        ///< "seconds.mesh", "real_time", "wall"
@@ -46,7 +46,7 @@ struct PairedSamples {
   std::vector<Pair> confirmation;                   ///< empty if the case was not a suspect
   bool in_base_only = false, in_head_only = false;  ///< then there are no pairs
   std::string base_failure, head_failure;           ///< why a program failed on it; empty: it did not
-  double timed_seconds = 0;                         ///< the shortest time that the clock measured at once
+  double timed_seconds = 0;                         ///< the shortest span of time that the clock measured
   std::map<std::string, PairedCounter> counters = {};
 
   bool has_failed() const { return !base_failure.empty() || !head_failure.empty(); }

@@ -165,7 +165,7 @@ std::vector<JudgedFigure> judge_counts(const std::string& case_name, const Progr
     total.verdict = Judgment::undecided;
     total.words = "two runs of the base differ by " + bench::percent(spread) +
                   ": its work depends on its environment, the time or chance; make it repeatable, or set "
-                  "instructions.relative of the rules to more than twice as much";
+                  "instructions.relative in the rules to more than twice as much";
   } else if (now < static_cast<double>(fewest) * (1 - relative)) {
     total.changed = true;
     total.words = "better";

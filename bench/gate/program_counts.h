@@ -28,8 +28,8 @@ struct CountOptions {
   std::set<std::string> cases = {};  ///< benchmarks; empty: the whole process
 };
 
-/// Counts base and head. A case of Google Benchmark is one iteration of its loop, without what comes before and after;
-/// another one is the whole process.
+/// Counts base and head. A case of Google Benchmark is one iteration of its loop, without what comes before and after.
+/// Any other case is the whole process.
 ///
 /// The base is counted twice, in environments of different sizes. If its instructions differ by more than half of the
 /// threshold, they depend on the environment, the time or chance, and the case is undecided. System calls and

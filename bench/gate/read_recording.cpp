@@ -49,7 +49,7 @@ bool is_run(const Json& json) {
   return json.is_object() && bench::value_at(json, "schema") == bench::run_document.schema;
 }
 
-/// Longer names are no figures of ours; with many members, they would take more memory than the file by far.
+/// Our figures have no longer names. With many members, longer names would take far more memory than the file.
 constexpr std::size_t longest_name = 500;
 
 /// Adds the numbers of a part of the report by their paths. Texts and lists other than histograms are only compared as
@@ -101,7 +101,7 @@ void add_run(const RunFile& run, bool is_warm_up, CaseFigures& one) {
     } else {
       known->samples.insert(known->samples.end(), figure.samples.begin(), figure.samples.end());
       if (figure.text != known->text && !known->text.ends_with(" or " + figure.text))
-        known->text += " or " + figure.text;  // and so equal to no other
+        known->text += " or " + figure.text;  // which is not equal to any other text
     }
   }
 }
@@ -113,7 +113,7 @@ void add_identity(const Json& run, bench::Identity& identity) {
 }
 
 /// The options of a report that are not defaults of its mesher, so that equal cases have equal names in all recordings:
-/// "part.off, ccdt, lattice bcc". Their order is that of this program, for other versions may write another.
+/// "part.off, ccdt, lattice bcc". They are in this program's order, since other versions may write another order.
 std::string name_of_case(const Json& run, const std::string& input) {
   static const bench::RunRecord usual = bench::start_record(baselines::mesher("ccdt"), {}, {});
   std::vector<std::string> parts = {input, run.at("mesher").at("name").get<std::string>()};
@@ -131,7 +131,7 @@ std::string name_of_case(const Json& run, const std::string& input) {
   return bench::joined(parts);
 }
 
-/// Inputs by their names, without folders unless two different ones have one name.
+/// The names of the inputs. They include folders only where different inputs have the same file name.
 std::vector<std::string> input_names(const std::vector<RunFile>& runs) {
   std::map<std::string, std::set<std::string>> hashes;
   const auto bare = [](const RunFile& run) {

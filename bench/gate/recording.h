@@ -10,7 +10,7 @@
 
 namespace ccdt::gate {
 
-/// The kind of a figure, which decides with what it may be compared.
+/// The kind of a figure. It decides which other figures it may be compared with.
 enum class Layer {
   exact,         ///< counts, quality and work: the same on every machine
   instructions,  ///< the same on machines with the same CPU model and libraries
@@ -36,7 +36,7 @@ struct CaseFigures {
   std::string name;     ///< by which base and head are matched
   std::string command;  ///< that repeats it
   std::vector<Figure> figures;
-  double timed_seconds = 0;  ///< the shortest time that the clock measured at once; 0 if unknown
+  double timed_seconds = 0;  ///< the shortest span of time that the clock measured; 0 if unknown
 };
 
 /// Begins the names of the counters that the author of a benchmark defined.

@@ -31,7 +31,7 @@ struct ExactRules {
   std::vector<std::string> ignore = {};
   double relative =
       1e-9;  ///< tolerance for figures that are not integers: libraries differ in the last bits of a logarithm
-  std::vector<std::pair<std::string, double>> tolerances = {};  ///< pattern, and the relative loss that passes
+  std::vector<std::pair<std::string, double>> tolerances = {};  ///< pattern, and the relative loss that is allowed
   std::vector<std::pair<std::string, Better>> better = {};      ///< pattern of names; overrides the default
 };
 
@@ -49,7 +49,7 @@ struct TimeRules {
   double relative = 0.01;
   double absolute_seconds = 0;  ///< of one run, or of one iteration of a benchmark
   double confidence = 0.95;
-  double largest_noise = 0.02;       ///< a case passes only if a slowdown by the threshold plus this is excluded
+  double largest_noise = 0.02;       ///< to pass, a case must exclude a slowdown by the threshold plus this
   int at_least = 20, at_most = 200;  ///< pairs
   int layouts = 20;                  ///< builds of each program at the first look, if they are rebuilt
   /// Standard deviation of log time between builds, if they are not rebuilt. None: `usual_layout_deviation`.
@@ -80,11 +80,11 @@ bool matches(const std::vector<std::string>& patterns, const std::string& name);
 /// Does the layer compare this figure of this case?
 bool is_gated(const Rules& rules, Layer layer, const std::string& case_name, const std::string& figure);
 
-/// Which change of an exact figure is a loss: by the first matching rule, otherwise by the default for the names of
-/// ccdt.run/1, otherwise `same`.
+/// Which change of an exact figure is a loss. The first matching rule decides; without one, the default for the names
+/// of ccdt.run/1; without that, the answer is `same`.
 Better better_of(const ExactRules& rules, const std::string& figure);
 
-/// The relative loss of an exact figure that passes.
+/// How large a relative loss of an exact figure may be.
 double tolerance_of(const ExactRules& rules, const std::string& figure);
 
 /// Does a rule say how to judge this figure: a tolerance, or which change is better?

@@ -14,32 +14,32 @@
 
 namespace ccdt::gate {
 
-/// What one run measured of one case.
+/// The measurements of one case in one run.
 struct MeasuredCase {
   double seconds = 0;
-  double timed_seconds = 0;                     ///< the time that the clock measured at once: of all iterations
+  double timed_seconds = 0;                     ///< the span of time that the clock measured: all iterations
   std::map<std::string, double> counters = {};  ///< may be infinite or not a number
   std::string failure = {};                     ///< why the case failed though the program went on; empty: it did not
 };
 
-/// By the name of the case.
+/// The measurements by the names of the cases.
 using Measured = std::map<std::string, MeasuredCase>;
 
 /// A process that times one or several cases.
 struct TimedTarget {
   std::string name;    ///< for people
   std::string figure;  ///< what is timed: "seconds.mesh"
-  /// Cases that are not wanted may be missing.
+  /// Runs the process once. The result need not contain cases that are not wanted.
   /// \throw ProgramFailed
   /// \throw baselines::Stopped
   std::function<Measured(const RunRequest&)> run = {};
   std::function<std::string(Side, const std::string& case_name)> command = {};  ///< that repeats one run
-  /// The names of all cases, without running them. Empty, or without result: the program cannot tell.
+  /// Lists the names of all cases without running them. No function or no names: the program cannot list them.
   std::function<std::vector<std::string>(Side)> list = {};
 };
 
-/// One target for each case of a sweep; the programs are `ccdt`s. The figure is that of the rules: "seconds.mesh" or
-/// another of the report, or "wall", the time of the whole process.
+/// One target for each case of a sweep. Both programs are versions of `ccdt`. The rules name the figure: one of the
+/// report, such as "seconds.mesh", or "wall", the time of the whole process.
 ///
 /// \param cases   with inputs that exist; their options are passed on
 /// \param folder  for scratch files; exists

@@ -64,7 +64,7 @@ struct Verdict {
   std::string correction;             ///< the correction for the number of cases; empty without times
 };
 
-/// Says how a case ended or whether it was there, which is no performance.
+/// Does the figure say how a case ended, or whether it was there? That is not performance.
 bool is_about_the_end(const JudgedFigure& figure);
 
 /// The verdict on all figures that are gated: worse if one is worse; otherwise undecided if one is undecided; otherwise

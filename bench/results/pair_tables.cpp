@@ -18,7 +18,7 @@ std::string reference_of(const Sweep& sweep) {
   return has_ours || sweep.cases.empty() ? "ccdt" : sweep.cases.front().mesher;
 }
 
-/// Are the options that both meshers have equal?
+/// Do the two agree in all options that both meshers have?
 bool have_same_options(const CaseRuns& a, const CaseRuns& b) {
   for (std::size_t i = 0; i < a.values.size(); ++i)
     if (!a.values[i].empty() && !b.values[i].empty() && a.values[i] != b.values[i]) return false;
@@ -28,13 +28,13 @@ bool have_same_options(const CaseRuns& a, const CaseRuns& b) {
 /// All pairs with one other mesher.
 struct PairCounts {
   std::vector<double> ratios = {};
-  std::uint64_t first_alone = 0, second_alone = 0, neither = 0;
+  std::uint64_t only_first = 0, only_second = 0, neither = 0;
   double low = std::numeric_limits<double>::infinity(), high = 0;  ///< of the seconds of both
 };
 
 void count(const CaseSummary& first, const CaseSummary& second, PairCounts& counts) {
   if (!first.seconds || !second.seconds) {
-    ++(first.seconds ? counts.first_alone : second.seconds ? counts.second_alone : counts.neither);
+    ++(first.seconds ? counts.only_first : second.seconds ? counts.only_second : counts.neither);
     return;
   }
   const double a = first.seconds->value, b = second.seconds->value;
@@ -73,8 +73,8 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
                      {{"first", "first", ColumnKind::label},
                       {"second", "second", ColumnKind::label},
                       {"both", "solved by both", ColumnKind::time},
-                      {"first_alone", "by the first only", ColumnKind::time},
-                      {"second_alone", "by the second only", ColumnKind::time},
+                      {"only_first", "by the first only", ColumnKind::time},
+                      {"only_second", "by the second only", ColumnKind::time},
                       {"neither", "by neither", ColumnKind::time},
                       {"faster", "first is faster", ColumnKind::time},
                       {"ratio", "seconds of the first / second, median", ColumnKind::time}}},
@@ -106,10 +106,9 @@ PairTables pair_tables(const Sweep& sweep, std::span<const CaseSummary> cases) {
   thin_out(tables.pairs);
   for (const auto& [other, c] : counts) {
     const auto faster = static_cast<std::uint64_t>(std::ranges::count_if(c.ratios, [](double r) { return r < 1; }));
-    tables.summary.rows.push_back(
-        {{tables.reference, other, cell_of(std::uint64_t{c.ratios.size()}), cell_of(c.first_alone),
-          cell_of(c.second_alone), cell_of(c.neither), cell_of(faster),
-          c.ratios.empty() ? Cell() : Cell(bench::median_estimate(c.ratios))}});
+    tables.summary.rows.push_back({{tables.reference, other, cell_of(std::uint64_t{c.ratios.size()}),
+                                    cell_of(c.only_first), cell_of(c.only_second), cell_of(c.neither), cell_of(faster),
+                                    c.ratios.empty() ? Cell() : Cell(bench::median_estimate(c.ratios))}});
     if (c.high > 0)
       for (const double end : {c.low, c.high})
         tables.diagonals.rows.push_back({{tables.reference + " / " + other, end}});

@@ -51,10 +51,10 @@ void add_case_findings(std::span<const CaseSummary> cases, ExperimentResult& res
   const std::size_t run = count_of(cases, &CaseSummary::is_run), solved = count_of(cases, &CaseSummary::is_solved);
   result.findings.push_back(share(solved, cases.size()) + " cases are solved.");
   const std::size_t verified = count_of(cases, [](const auto& s) { return text_of(s, "verified") == "yes"; });
-  if (verified > 0) result.findings.push_back(share(verified, solved) + " meshes are verified and right.");
+  if (verified > 0) result.findings.push_back(share(verified, solved) + " meshes were verified and are right.");
   const std::size_t wide = count_of(cases, [](const auto& s) { return !s.spread.empty(); });
   if (wide > 0)
-    result.findings.push_back("The times of " + counted(wide, "case") + " spread more than requested, or than " +
+    result.findings.push_back("The times of " + counted(wide, "case") + " spread more than requested, or more than " +
                               bench::rounded(100 * widest_spread, 2) + "%; their rows say so.");
   if (run < cases.size())
     result.problems.push_back(counted(cases.size() - run, "case") +
@@ -147,7 +147,7 @@ ExperimentResult sweep_result(const Sweep& sweep) {
       "A case is one mesher on one input with one set of options.",
       "Seconds: the median of the counted runs of a case, of meshing alone.",
       "Intervals are between order statistics, and cover the median in 95% of all cases.",
-      "Of fewer than six runs there is no interval.",
+      "There is no interval for fewer than six runs.",
       "spread: the half-width of the interval is more than requested, or more than 10% of the median.",
       "r is 1 for the regular tetrahedron and larger for all others.",
       "If there are very many pairs of cases, the chart of two meshers shows a sample of 3,000; its table counts all.",

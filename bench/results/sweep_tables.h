@@ -32,7 +32,7 @@ struct ScalingTables {
 };
 ScalingTables scaling_tables(const Sweep& sweep, std::span<const CaseSummary> cases);
 
-/// Pairs of solved cases of two meshers with the same input and, as far as both have them, the same options; and the
+/// Pairs of solved cases of two meshers that agree in the input and in all options that both meshers have; and the
 /// diagonals of their charts.
 struct PairTables {
   std::string reference;  ///< the mesher with which all others are compared

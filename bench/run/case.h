@@ -18,9 +18,9 @@ struct Repetitions {
   int warm_up = 0;   ///< runs before those that count; they have the first numbers
   int at_least = 1;  ///< counted runs
   int at_most = 1;
-  double until = 0;  ///< stop at the first of the looks between the two at which the half-width of the median's
-                     ///< interval is at most this share of the median; 0: stop at `at_least`
-  double budget_seconds = 0;  ///< stop at a look if meshing would take longer than this until the next; 0: no limit
+  double until = 0;  ///< stop at the first look (see `looks_of`) where the half-width of the median's interval is at
+                     ///< most this share of the median; 0: stop at `at_least`
+  double budget_seconds = 0;  ///< stop at a look if meshing up to the next look would exceed this; 0: no limit
 };
 
 /// The numbers of counted runs after which a case may stop. Its interval takes them into account.
@@ -52,7 +52,7 @@ struct Case {
 /// A case with the records of its runs.
 struct MeasuredCase {
   Case asked;
-  std::string id = {};                  ///< a hash of all that determines the result; begins the names of the records
+  std::string id = {};                  ///< hash of all that determines the result; the records' names begin with it
   int runs = 0;                         ///< number of records, numbered from 0
   RunRecord first = {};                 ///< the first run, or the one that failed; meaningless without runs
   std::vector<RunRecord> counted = {};  ///< successful runs without the warm-up

@@ -16,7 +16,7 @@ bool is_plain(char c) {
 
 void check_file_name(const std::string& name) {
   if (name.empty() || name[0] == '.' || !std::ranges::all_of(name, is_plain))
-    throw std::invalid_argument(io::in_quotes(name) + " is no name for a file of this folder");
+    throw std::invalid_argument(io::in_quotes(name) + " is not a valid name for a file in this folder");
 }
 
 void check_file_path(const std::string& path) {

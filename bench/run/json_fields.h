@@ -14,7 +14,7 @@
 #include "engine/base/enum_names.h"
 
 /// Structs in JSON. The members of a struct are listed once, with their names, in `fields<Struct>`; writing, reading
-/// and the conversions of nlohmann::json follow from that. Enumerations with `names_of` are their names.
+/// and the conversions of nlohmann::json follow from that. Values of enumerations with `names_of` become their names.
 namespace ccdt::bench {
 
 /// A member of a struct.

@@ -31,8 +31,8 @@ RankedInterval narrowest(int samples, double error) {
   return below < 0 ? RankedInterval() : RankedInterval{below + 1, 2 * tail};
 }
 
-/// The error of all looks up to one with this many samples. Nothing is kept for later by the last one, and by an
-/// interruption between two.
+/// The error that all looks may have together, up to the one with this many samples. A part is kept for later looks,
+/// except at the last look, or if the run was interrupted between two looks.
 double error_until(int samples, std::span<const int> looks) {
   const double all = 1 - usual_confidence;
   const auto look = std::ranges::find(looks, samples);
@@ -46,7 +46,7 @@ std::vector<int> looks_between(int at_least, int at_most) {
   assert(1 <= at_least && at_least <= at_most);
   std::vector<int> looks;
   for (int look = std::max(at_least, fewest_for_interval); look < at_most; look *= 3)
-    if (looks.empty() || 2 * look <= at_most) looks.push_back(look);  // one shortly before the last gains nothing
+    if (looks.empty() || 2 * look <= at_most) looks.push_back(look);  // a look shortly before the last gains nothing
   looks.push_back(at_most);
   return looks;
 }

@@ -5,17 +5,17 @@
 
 #include "bench/run/statistics.h"
 
-/// Medians with intervals that cover, also if it depends on the samples how many there are.
+/// Medians with intervals that keep their confidence even if the number of samples depends on the samples.
 ///
 /// The interval reaches from the r-th smallest to the r-th largest of n independent samples. How many of these are
 /// below the median is binomial, whatever the distribution, so it misses with the probability 2 P(B(n, 1/2) < r) (David
 /// and Nagaraja 2003, "Order Statistics", section 7.1; Le Boudec 2010, "Performance Evaluation", section 2.2). If the
-/// distribution changes from sample to sample, it misses the median of their mixture not more often (Hoeffding 1956).
+/// distribution changes from sample to sample, it does not miss the median of the mixture more often (Hoeffding 1956).
 ///
 /// A measurement that stops as soon as its interval is narrow stops too often at one that is narrow and wrong by
-/// chance. Therefore it may stop only at a few looks, whose numbers of samples are known before, and the error of 5% is
-/// divided among all looks (alpha spending: Lan and DeMets 1983). All their intervals cover together, so it does not
-/// matter by which rule the measurement stops at one of them.
+/// chance. Therefore it may stop only at a few looks, whose numbers of samples are fixed in advance. The error of 5% is
+/// divided among all looks (alpha spending: Lan and DeMets 1983). With 95% confidence, the intervals of all looks are
+/// right, so it does not matter by which rule the measurement stops at one of them.
 namespace ccdt::bench {
 
 /// Fewer samples have no interval: the range of five misses the median with a probability of 6.25%.
@@ -36,8 +36,8 @@ int rank_of_interval(int samples, std::span<const int> looks = {});
 /// \pre there is a sample
 Estimate median_estimate(std::span<const double> samples, std::span<const int> looks = {});
 
-/// The median of the ratios of the i-th samples of two cases that took turns. What changes for both, as the speed of
-/// the machine, cancels. If one case has more samples, its last ones do not count.
+/// The median of the ratios of the i-th samples of two cases that took turns. Changes that affect both, such as the
+/// speed of the machine, cancel. If one case has more samples, its last ones do not count.
 ///
 /// \pre there is a sample in each and the denominators are positive
 Estimate median_ratio(std::span<const double> numerator, std::span<const double> denominator,

@@ -37,7 +37,7 @@ struct RunRecord {
   struct Input {
     std::string name, sha256;
     std::uint64_t vertices = 0, facets = 0, segments = 0;
-    std::uint64_t nonplanar_facets = 0;  ///< polygons that were triangulated because they are bent
+    std::uint64_t nonplanar_facets = 0;  ///< polygons that were triangulated because they are warped
     double largest_deviation = 0;        ///< of their corners from a plane, in the units of the input
   } input;
   std::vector<std::pair<std::string, Option>> options;

@@ -9,8 +9,8 @@ namespace ccdt::bench {
 /// The confidence of all intervals that do not name another.
 inline constexpr double usual_confidence = 0.95;
 
-/// An estimate with its confidence interval. Of too few samples there is none: it is then infinite on both sides, so
-/// that every bound is undecided.
+/// An estimate with its confidence interval. With too few samples, the interval is infinite on both sides, so that
+/// every bound is undecided.
 struct Estimate {
   double value = 0, low = 0, high = 0;
 

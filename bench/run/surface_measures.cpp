@@ -34,7 +34,7 @@ void for_each_corner(const plc::Plc& plc, Visit visit) {
 struct EdgeTriangle {
   std::array<VertexId, 2> edge;
   VertexId opposite;
-  bool inside_ahead = false;  ///< counterclockwise of it is the inside of the domain
+  bool inside_ahead = false;  ///< is the domain next to it in the counterclockwise direction?
   double angle = 0;           ///< radians, from the first triangle of the edge
 };
 

@@ -18,7 +18,7 @@ struct SurfaceAngle {
 /// The smallest angles of a surface, which limit those of the tetrahedra.
 struct SurfaceAngles {
   SurfaceAngle planar;    ///< of its triangles
-  SurfaceAngle dihedral;  ///< between two triangles at an edge, where the inside of the domain is between them
+  SurfaceAngle dihedral;  ///< between two triangles at an edge, on the side of the domain
 };
 
 SurfaceAngles smallest_angles(const plc::Plc& plc);

@@ -8,7 +8,7 @@
 
 namespace ccdt::sweep {
 
-/// A case with missing runs, as far as it matters for a cluster.
+/// What a cluster must know about a case with missing runs.
 struct MissingCase {
   std::string id;
   std::string group;   ///< cases of one group take turns, so they belong on one machine
@@ -40,8 +40,8 @@ Chunk read_chunk(const std::filesystem::path& folder, int number);
 /// All chunks that have files, by number. \throw InputError
 std::vector<Chunk> read_chunks(const std::filesystem::path& folder);
 
-/// As long as it lives, others that want the same chunk wait. If only the daemon of a node has died, its tasks keep
-/// running while others are started in their place.
+/// While a lock exists, other tasks that want the same chunk wait. This is needed when the daemon of a node dies: its
+/// tasks keep running, but the cluster starts new ones in their place.
 class ChunkLock {
  public:
   /// \throw OutputError  there is no such chunk, or its file system cannot lock

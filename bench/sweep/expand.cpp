@@ -165,8 +165,8 @@ NamedOptions effective(const std::string& mesher, const Values& options) {
   return baselines::effective_options(baselines::mesher(mesher), NamedOptions(options.begin(), options.end()));
 }
 
-/// The options that make a difference to the mesher here, by name; also a default value, if another value of its axis
-/// makes a difference.
+/// The options that make a difference to the mesher here, by name. A default value is included if another value of its
+/// axis makes a difference.
 Values shown_options(const std::string& mesher, const Values& asked, const std::vector<OptionAxis>& axes) {
   const NamedOptions used = effective(mesher, asked);
   const auto matters = [&](std::size_t axis) {

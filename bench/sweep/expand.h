@@ -32,8 +32,8 @@ struct SweepCase {
   std::string id = {};                                       ///< known once its input exists
 };
 
-/// All cases of a spec: inputs times meshers times options, minus excluded ones. An option that a mesher does not have
-/// makes one case, not several. The order is that of the spec.
+/// All cases of a spec: inputs times meshers times options, minus excluded ones, in the order of the spec. An option
+/// that a mesher does not have does not multiply its cases.
 ///
 /// \param folder  of the sweep; models are files in its subfolder `models`, which need not exist yet
 /// \throw InputError  no file matches, nothing is left, or options contradict each other; names the JSON pointer

@@ -25,7 +25,7 @@ rule chunk:
     shell: "{program:q} sweep . --chunk {wildcards.number} {more_words}"
 )";
 
-/// A value in Python syntax, which is that of JSON.
+/// A value in Python syntax, which is the same as JSON here.
 std::string literal(const bench::Json& value) {
   return value.dump(-1, ' ', true, bench::Json::error_handler_t::replace);
 }

@@ -55,7 +55,7 @@ struct SweepSpec {
   bool keep_meshes = false;
 };
 
-/// Reads a spec, and checks it as far as that is possible without reading inputs.
+/// Reads a spec, and checks everything that can be checked without reading inputs.
 /// \throw InputError  it cannot be read or is invalid; names the file and the JSON pointer
 SweepSpec read_spec(const std::filesystem::path& file, const MeshOptionRules& rules);
 

@@ -38,7 +38,7 @@ std::vector<std::size_t> polytope_sizes(const Gram& gram) {
   return sizes;
 }
 
-/// A lattice of each kind in no special position, as far as its kind allows.
+/// A lattice of each kind, without any symmetry beyond that of its kind.
 ParameterValues generic_values(const BravaisLattice& lattice) {
   const std::vector<int> values = {97, 131, -23, -17, 11};
   ParameterValues generic{{}, 83};

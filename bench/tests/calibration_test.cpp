@@ -90,7 +90,7 @@ TEST(Calibration, PairsMustBeAsManyAsAGateWouldTake) {
 }
 
 TEST(Calibration, DriftRaisesTheNoiseFloor) {
-  // Pairs that resemble their neighbors: the interval of few is too narrow.
+  // Pairs resemble their neighbors, so an interval from a few of them is too narrow.
   PairedSamples samples = noise("a", 0, 0, 1);
   std::mt19937_64 random(4);
   std::normal_distribution<double> normal;

@@ -29,7 +29,7 @@ TEST(SmallestSphere, HasItsCenterInThePlaneOfTheTriangle) {
   EXPECT_EQ(conforming::side_of_smallest_sphere(right, {4, 4, 0}), 0);
   EXPECT_EQ(conforming::side_of_smallest_sphere(right, {2, 4, 2}), 0);
   EXPECT_EQ(conforming::side_of_smallest_sphere(right, {2, 2, 3}), -1);
-  // The circumcenter of an obtuse triangle is outside of it: here (2, -1.5, 0), with radius 2.5.
+  // The circumcenter of an obtuse triangle is outside it: here (2, -1.5, 0), with radius 2.5.
   const Corners obtuse = {{{0, 0, 0}, {4, 0, 0}, {2, 1, 0}}};
   EXPECT_EQ(conforming::side_of_smallest_sphere(obtuse, {2, -4, 0}), 0);
   EXPECT_EQ(conforming::side_of_smallest_sphere(obtuse, {2, -3, 1}), 1);

@@ -42,10 +42,10 @@ TEST(Registry, NamesEveryExperimentOnceAndGivesItsNameToTheResult) {
 
 TEST(Experiments, MeasureAllModelsUnlessSomeAreAskedFor) {
   experiments::ExperimentOptions options;
-  EXPECT_TRUE(experiments::is_asked_for(options, "piston"));
+  EXPECT_TRUE(experiments::is_chosen(options, "piston"));
   options.models = {"bracket"};
-  EXPECT_TRUE(experiments::is_asked_for(options, "bracket"));
-  EXPECT_FALSE(experiments::is_asked_for(options, "piston"));
+  EXPECT_TRUE(experiments::is_chosen(options, "bracket"));
+  EXPECT_FALSE(experiments::is_chosen(options, "piston"));
 }
 
 TEST(Experiments, TimeMesh3OnlyWhereItCanBeAsCoarse) {

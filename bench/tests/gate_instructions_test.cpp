@@ -15,8 +15,8 @@
 namespace ccdt::gate {
 namespace {
 
-/// A profile as callgrind writes it: names are defined once, also by a caller; a stage is called through a lambda, in
-/// two versions, and once more from outside of the mesher.
+/// A profile as callgrind writes it. Each name is defined at its first use, which may be in a caller. Two versions of
+/// one stage are called through a lambda, and the stage is called once more from outside the mesher.
 constexpr const char* profile = R"(# callgrind format
 version: 1
 creator: callgrind-3.19.0
@@ -77,7 +77,7 @@ TEST(StageInstructionsTest, StagesGetTheCostOfTheirCallsFromTheMesher) {
   const StageInstructions stages = stage_instructions(profile);
   EXPECT_EQ(stages.at("mesh"), 1000);
   EXPECT_EQ(stages.at("plc"), 300);       // not that of the new surface
-  EXPECT_EQ(stages.at("delaunay"), 650);  // not its own call once more
+  EXPECT_EQ(stages.at("delaunay"), 650);  // without counting the call of itself again
   EXPECT_EQ(stages.at("improve"), 30);
   EXPECT_EQ(stages.at("remesh"), 500);
   EXPECT_EQ(stages.at("front"), 0);

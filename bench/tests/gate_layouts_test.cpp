@@ -10,7 +10,7 @@
 namespace ccdt::gate {
 namespace {
 
-/// A program whose builds differ in speed, for good. The head's are slower by the factor.
+/// A program whose builds differ in speed; each build keeps its speed. Those of the head are slower by the factor.
 TimedTarget rebuilt(const std::string& name, double factor, double deviation, std::uint64_t seed) {
   TimedTarget fake = {name, "real_time"};
   fake.command = [](Side, const std::string&) { return ""; };

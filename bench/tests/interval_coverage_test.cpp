@@ -101,7 +101,7 @@ const std::vector<Design> all_designs = {
     {"9-200", {.at_least = 9, .at_most = 200, .until = 0.03}},
     {"budget", {.at_least = 6, .at_most = 60, .until = 0.05, .budget_seconds = 18.5}}};
 
-/// Ratios have the intervals of medians, so fewer designs show that they cover.
+/// Ratios use the intervals of medians, so fewer designs are enough to test their coverage.
 const std::vector<Design> designs_of_ratios = {all_designs[0], all_designs[3],  all_designs[6],
                                                all_designs[9], all_designs[10], all_designs[13]};
 
@@ -217,7 +217,7 @@ double coverage_without_looks(const Process& process, const std::vector<int>& lo
   return share(covered);
 }
 
-/// Why there are looks.
+/// This is why runs stop only at looks.
 TEST(Coverage, OfAStopAfterAnyRunIsTooSmall) {
   const Process& bimodal = processes[4];
   EXPECT_LT(coverage_without_looks(bimodal, {}), 0.85);

@@ -12,7 +12,7 @@
 namespace ccdt::gate {
 namespace {
 
-// Verdicts of given times.
+// Verdicts on given times.
 
 /// One case of one program.
 SampleSet samples_of(const std::vector<Pair>& screening, const std::vector<Pair>& confirmation) {

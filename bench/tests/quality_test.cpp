@@ -61,7 +61,7 @@ TEST(SurfaceLimit, ABadTetrahedronAmongGoodTrianglesIsNotTheSurfacesFault) {
   EXPECT_FALSE(limit.limits_quality());
 }
 
-/// All of its edges have other lengths: 2, 3, 4 from the corner, then the roots of 13, 20 and 25.
+/// All edges have different lengths: 2, 3, 4 from the corner, then the roots of 13, 20 and 25.
 const std::array<Point3, 4> uneven = {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}}};
 
 TEST(Quality, EachEdgeCountsOnce) {

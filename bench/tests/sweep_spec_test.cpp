@@ -40,7 +40,7 @@ class SweepSpecs : public testing::Test {
     std::ofstream(folder() / name) << text;
   }
 
-  /// The least spec, with other members.
+  /// The smallest possible spec, with these members added or replaced.
   static Json spec_with(const Json& members) {
     Json spec = {{"schema", "ccdt.sweep/1"}, {"inputs", {{{"model", "cube"}, {"edge_length", 0.5}}}}};
     spec.update(members);

@@ -94,7 +94,7 @@ TEST_F(SweepEstimates, FollowThePowerLawOfTheSameMesher) {
   };
   for (const double edge_length : {0.1, 0.05, 0.03})
     add("ccdt", edge_length, {good_run(seconds(edge_length), bytes(edge_length))});
-  add("ccdt", 0.5, {good_run(seconds(0.5), 5'000'000)});  // too small to tell of memory
+  add("ccdt", 0.5, {good_run(seconds(0.5), 5'000'000)});  // too small to say anything about memory
   add("ccdt", 0.01);
   const sweep::CaseEstimate estimate = estimates().back();
   EXPECT_EQ(estimate.neighbors, 4);

@@ -31,7 +31,8 @@ TEST(Stars, HaveTheAngleThatIsAskedFor) {
       for (const std::uint64_t variant : {0u, 3u})
         EXPECT_NEAR(bench::smallest_segment_angle(plc::build_plc(star(name, degrees, variant), {})), degrees, 1e-6)
             << name;
-  // About as wanted, to the nearest of an even distribution; and fins at this dihedral angle.
+  // The directions of an urchin are evenly distributed, so its angle is only close to the one wanted. For fins, the
+  // wanted angle is the dihedral angle.
   EXPECT_NEAR(bench::smallest_segment_angle(plc::build_plc(star("urchin", 20, 0), {})), 20, 4);
   EXPECT_NEAR(bench::smallest_segment_angle(plc::build_plc(star("fins", 10, 0), {})), 10 * std::sqrt(3) / 2, 0.1);
 }
@@ -79,7 +80,7 @@ experiments::TerminationRow row(const char* group, double degrees, Protection pr
   return made;
 }
 
-/// One whose run has failed.
+/// A row whose run has failed.
 experiments::TerminationRow failed(const char* group, double degrees, baselines::FailureKind kind) {
   experiments::TerminationRow made = row(group, degrees, Protection::midpoint);
   made.measured.first.set_failure(kind, "the surface is open");

@@ -69,7 +69,7 @@ TEST(VerifyOwnSurface, MeshesThatOverlapAreFound) {
   expect_ok(with_small_one({5, 5, 5}), own);
 }
 
-/// Two triangles, of which the second has some of the vertices of the first.
+/// Two triangles. The second has some of the vertices of the first.
 std::size_t crossings(const std::array<std::uint32_t, 3>& other) {
   plc::InputPlc plc;
   plc.vertices = {{0, 0, 0},  {4, 0, 0}, {0, 4, 0},                        // the first triangle

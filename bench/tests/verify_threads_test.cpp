@@ -15,7 +15,7 @@
 namespace ccdt {
 namespace {
 
-/// So large that several threads work on it; of two regions, or of one for each cube.
+/// A mesh so large that several threads work on it. `region` is the region of each cube.
 MeshedInput large_mesh(const std::function<int(int, int, int)>& region) {
   constexpr int side = is_sanitized ? 14 : 24;
   MeshedInput m = make_grid_mesh({side, side, side}, region, false, unmoved);

@@ -26,9 +26,9 @@ double norm1(const Point3& p) {
   return std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z);
 }
 
-/// With the last point as origin the determinant of the rows (p_i, |p_i|^2) is sum_i |p_i|^2 m_i, m_i the signed 3x3
-/// minors. Its gradient by p_i is 2 m_i p_i plus |p_j|^2 times the gradients of the other minors, which are cross
-/// products. The origin's is minus the sum of all.
+/// With the last point as origin, the determinant of the rows (p_i, |p_i|^2) is sum_i |p_i|^2 m_i, where the m_i are
+/// the signed 3x3 minors. Its gradient by p_i is 2 m_i p_i plus |p_j|^2 times the gradients of the other minors, which
+/// are cross products. Its gradient by the origin is minus the sum of all these gradients.
 Sensitivity in_sphere_sensitivity(const std::array<Point3, 5>& points) {
   std::array<Point3, 4> p;
   std::array<double, 4> height, minor;
@@ -66,7 +66,7 @@ struct InnerFace {
   std::uint32_t before, behind;  ///< the opposite vertices
 };
 
-/// Fetches the tetrahedra at a face that will be looked at soon into the cache.
+/// Prefetches the tetrahedra at a face that will be checked soon.
 void prefetch(const Topology& topology, std::size_t f) {
   for (const std::uint32_t h : topology.half_faces[f])
     if (h != none) __builtin_prefetch(&topology.mesh.tetrahedra[h / 4]);
@@ -94,7 +94,7 @@ double ratio_to_rounding(const std::array<Point3, 5>& points, double rounding) {
   return std::fabs(sensitivity.value) / sensitivity.explained_by(rounding);
 }
 
-/// What is found among some of the faces.
+/// The result of checking some of the faces.
 struct Found {
   std::uint64_t checked = 0;
   std::array<Failures, 2> failures = {};  ///< beyond what rounding explains, and within

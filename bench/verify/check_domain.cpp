@@ -53,8 +53,8 @@ std::vector<std::vector<int>> wanted_regions(const mesh::TetMesh& mesh, const Re
   return wanted;
 }
 
-/// Empties a queue of tetrahedra. Calls enter(neighbor, tetrahedron) for those behind the faces that `is_open` names,
-/// which may put more into the queue.
+/// Empties a queue of tetrahedra. Calls enter(neighbor, tetrahedron) for each neighbor across a face that `is_open`
+/// accepts. The call may add tetrahedra to the queue.
 template <class IsOpen, class Enter>
 void flood(const Topology& topology, std::vector<std::uint32_t>& queue, const IsOpen& is_open, const Enter& enter) {
   while (!queue.empty()) {
@@ -67,7 +67,7 @@ void flood(const Topology& topology, std::vector<std::uint32_t>& queue, const Is
   }
 }
 
-/// Calls enter(tetrahedron, region) for those at the faces that stand for facets.
+/// Calls enter(tetrahedron, region) for the tetrahedra at the faces that stand for facets.
 template <class Enter>
 void visit_matched_sides(const Regions& regions, const FacetMatches& matches, const Enter& enter) {
   for (const MatchedFace& f : matches.faces) {
@@ -76,9 +76,10 @@ void visit_matched_sides(const Regions& regions, const FacetMatches& matches, co
   }
 }
 
-/// Gives the tetrahedra that are connected without crossing a facet the region which faces that stand for facets say.
+/// Assigns one region to all tetrahedra that are connected without crossing a facet. Faces that stand for facets say
+/// which region it is.
 ///
-/// \return  false if these do not agree: then some tetrahedra are reached from two regions
+/// \return  false if these faces do not agree: then some tetrahedra are reached from two regions
 bool assign_to_components(const Topology& topology, const Regions& regions, const FacetMatches& matches,
                           RegionsOfTetrahedra& assigned) {
   const std::size_t size = topology.mesh.tetrahedra.size();
@@ -102,7 +103,7 @@ bool assign_to_components(const Topology& topology, const Regions& regions, cons
   return true;
 }
 
-/// The same where regions do not agree: floods the mesh from all faces that stand for facets.
+/// The same if regions do not agree: floods the mesh from all faces that stand for facets.
 void assign_by_flood(const Topology& topology, const Regions& regions, const FacetMatches& matches,
                      RegionsOfTetrahedra& assigned) {
   assigned.region.assign(topology.mesh.tetrahedra.size(), none);
@@ -122,8 +123,8 @@ void assign_by_flood(const Topology& topology, const Regions& regions, const Fac
   sort_and_unique(assigned.conflicts);
 }
 
-/// Finds the tetrahedra between two sheets of faces that both span an interior facet: those with all four vertices on
-/// the sheet that was taken and near its plane, that are connected with it through such tetrahedra.
+/// Finds the tetrahedra between two sheets of faces that both span an interior facet. Such a tetrahedron has all four
+/// vertices on the chosen sheet and near its plane, and is connected with the sheet through others of this kind.
 void find_flat_tetrahedra(const Topology& topology, const Regions& regions, std::span<const MatchedFace> sheet,
                           const Plane& plane, double flat, RegionsOfTetrahedra& assigned) {
   const std::uint32_t a = regions.of_side[2 * sheet[0].piece], b = regions.of_side[2 * sheet[0].piece + 1];
@@ -157,12 +158,12 @@ Check check_inside(const mesh::TetMesh& mesh, const Regions& regions, const Regi
   };
   check_each(check, mesh.tetrahedra.size(), is_inside, [&](std::size_t t) {
     return text_of_tetrahedron(mesh, t) +
-           (assigned.region[t] == none ? " is not connected with any facet of the input" : " is outside");
+           (assigned.region[t] == none ? " is not connected to any facet of the input" : " is outside");
   });
   return check;
 }
 
-/// A tetrahedron has the attribute of the region seed in its region; without a seed, the same as all in the region.
+/// A tetrahedron has the attribute of its region's seed; without a seed, all tetrahedra of a region have the same one.
 /// One that lies within an interior facet may have the attribute of either side.
 Check check_regions(const mesh::TetMesh& mesh, const Regions& regions, const RegionsOfTetrahedra& assigned) {
   Check check{.name = regions_check};

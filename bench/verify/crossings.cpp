@@ -18,7 +18,7 @@ Box box_of(const plc::InputPlc& surface, const Triangle& triangle) {
   return box;
 }
 
-/// A triangle in the order that begins with the vertices which it shares with another.
+/// The corners of a triangle, beginning with those that it shares with another.
 Triangle shared_first(Triangle triangle, const Triangle& other) {
   std::ranges::stable_partition(triangle, [&](std::uint32_t v) { return std::ranges::find(other, v) != other.end(); });
   return triangle;
@@ -34,7 +34,7 @@ class CrossingTest {
     switch (shared) {
       case 0:
         return do_meet(whole(a), whole(b));
-      case 1:  // what they share beyond the vertex reaches the edge opposite to it, in one of them
+      case 1:  // if they share more than the vertex, this reaches the opposite edge in one of them
         return do_meet(far_edge(a), whole(b)) || do_meet(far_edge(b), whole(a));
       case 2:  // they lie on each other, on one side of the edge
         return orientation(at(a[0]), at(a[1]), at(a[2]), at(b[2])) == 0 &&

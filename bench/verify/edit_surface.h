@@ -8,19 +8,19 @@ namespace ccdt::verify {
 /// vertices of such lines. Afterwards, facets that touch share edges, and a facet is divided where it borders on
 /// different regions.
 ///
-/// The patch of pieces in one plane with such a line becomes new pieces, without the inner edges of the input. Edges of
-/// the input that cross without a common vertex stay unchanged.
+/// If a patch of pieces in one plane has such a line, it is divided into new pieces, without the inner edges of the
+/// input. Edges of the input that cross without a common vertex stay unchanged.
 void embed_lines(Surface& surface);
 
 /// Changes the surface to that required of a mesh whose boundary vertices were allowed to slide: the pieces of a flat
 /// facet become one, and straight chains of edges or of segments become one edge or segment. Curved parts stay
 /// unchanged, so no vertex there may move.
 ///
-/// A flat face that continues as a curved one without an edge is one facet as far as it is flat up to rounding.
-/// Otherwise, a patch is flat within a quarter of `tolerances.flat`, a chain straight within `tolerances.place`. A
-/// chain ends where more than two edges and segments meet.
+/// If a flat face continues as a curved one without an edge, the part that is flat up to rounding is one facet.
+/// Otherwise, a patch is flat within a quarter of `tolerances.flat`, and a chain is straight within `tolerances.place`.
+/// A chain ends where more than two edges and segments meet.
 ///
-/// \param regions  of the surface; as before, for the new pieces
+/// \param regions  the regions of the surface; afterwards, the same regions for the new pieces
 void let_vertices_slide(Surface& surface, Regions& regions);
 
 }  // namespace ccdt::verify

@@ -22,7 +22,7 @@ bool has_edge(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
   return std::ranges::any_of(surface.uses.of(edge), [&](std::uint32_t use) { return surface.piece_of[use] == piece; });
 }
 
-/// Does an edge run along the plane of the piece, as far as a piece of that size determines its slope?
+/// Is the edge parallel to the plane of the piece, up to the error of the slope of a piece of this size?
 bool runs_along(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
   const Point3& area = surface.area_vector[piece];
   const Point3 along = surface.at(surface.edges[edge][1]) - surface.at(surface.edges[edge][0]);
@@ -31,7 +31,7 @@ bool runs_along(const Surface& surface, std::uint32_t piece, std::uint32_t edge)
   return std::fabs(dot(area, along)) <= 2 * surface.tolerances.touch * slack * squared_size;
 }
 
-/// The edges whose midpoint lies on a foreign piece, along its plane.
+/// The edges that run along a piece without being one of its sides: the midpoint lies on the piece.
 std::vector<std::uint32_t> find_touching(const Surface& surface, const PieceTree& tree) {
   const auto touches_a_piece = [&](std::uint32_t e) {
     const Point3 middle = point_along(surface, e, 0.5);
@@ -56,7 +56,7 @@ std::vector<std::uint32_t> sites_of(const Surface& surface, std::uint32_t piece)
   return sites;
 }
 
-/// Vertices of the input that are on no piece's border as a corner. Those that the mesh lacks are left out.
+/// The vertices of the input that are not a corner of any piece. Those that the mesh lacks are left out.
 std::vector<std::uint32_t> single_vertices(const Surface& surface) {
   std::vector<bool> is_corner(surface.sites.position.size(), false);
   for (const Edge& e : surface.directed) is_corner[e[0]] = true;
@@ -66,8 +66,8 @@ std::vector<std::uint32_t> single_vertices(const Surface& surface) {
   return single;
 }
 
-/// Splits the lines at all sites that lie on them, and all edges at the ends of the lines and at single vertices, where
-/// lines may cross. An edge is not split at a vertex of its own triangles, which then have no height.
+/// Splits the lines at all sites that lie on them. Splits all edges at the ends of lines and at single vertices, where
+/// lines may cross. An edge is never split at a vertex of its own triangles; such triangles have no height.
 void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& lines, Surface& surface) {
   std::vector<std::uint32_t> sites = single_vertices(surface);
   std::map<std::uint32_t, std::vector<std::uint32_t>> candidates;  // of each edge
@@ -101,9 +101,9 @@ void split_at_touches(const PieceTree& tree, const std::vector<std::uint32_t>& l
       surface);
 }
 
-/// Patches in one plane, and the lines of others within each.
+/// Flat patches, and for each the lines of other patches within it.
 struct Drawings {
-  std::vector<bool> joined;  ///< of each edge: it is within a patch
+  std::vector<bool> joined;  ///< for each edge: is it within a patch?
   Patches patches;
   std::map<std::uint32_t, std::vector<std::uint32_t>> lines;  ///< of a patch
 };
@@ -113,7 +113,7 @@ std::vector<std::uint32_t> patches_around(const Surface& surface, const PieceTre
                                           std::uint32_t line) {
   const double flat = surface.tolerances.flat;
   std::vector<std::uint32_t> found;
-  for (const double fraction : {0.5, 0.382, 0.707}) {  // where one is on an edge within the patch, another is not
+  for (const double fraction : {0.5, 0.382, 0.707}) {  // if one point is on an edge within the patch, another is not
     const Point3 point = point_along(surface, line, fraction);
     tree.for_each_near(point, point, [&](std::uint32_t p) {
       const std::uint32_t patch = patches.of_piece[p];
@@ -144,7 +144,7 @@ Drawings find_drawings(const Surface& surface, const PieceTree& tree) {
   return drawings;
 }
 
-/// The cells into which lines divide a patch: loops that have an edge of its outline to run along, or lines alone.
+/// The cells into which lines divide a patch: loops that follow the outline in its direction or consist only of lines.
 std::vector<PolygonCell> divide_patch(const Surface& surface, const Drawings& drawings, std::uint32_t patch,
                                       const std::vector<std::uint32_t>& lines) {
   std::set<Edge> outline, undirected;

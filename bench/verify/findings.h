@@ -20,7 +20,7 @@ void fail(Check& check, const Describe& describe) {
   if (check.examples.size() < kept_failures) check.examples.push_back(describe());
 }
 
-/// What is wrong in a part of a list: how many things, and which are the first.
+/// The failures in a part of a list: how many there are, and the first few.
 struct Failures {
   std::uint64_t count = 0;
   std::vector<std::size_t> first = {};
@@ -31,14 +31,14 @@ struct Failures {
   }
 };
 
-/// Counts failures, of which describe(i) describes one.
+/// Adds these failures to the check; describe(i) describes failure i.
 template <class Describe>
 void fail(Check& check, const Failures& failures, const Describe& describe) {
   for (const std::size_t i : failures.first) fail(check, [&] { return describe(i); });
   check.failed += failures.count - failures.first.size();
 }
 
-/// Looks at each i below `count` on several threads, and counts where `is_right(i)` does not hold.
+/// Tests is_right(i) for each i below `count` on several threads, and counts the failures.
 ///
 /// \param describe  describe(i) says what is wrong; called by the caller's thread
 template <class IsRight, class Describe>

@@ -12,11 +12,11 @@ namespace ccdt::verify {
 
 namespace {
 
-/// The flatness of a patch that counts as flat, times the tolerance. The rest of the tolerance is for its other
-/// vertices, which are compared with the plane of its corners.
+/// The greatest thickness of a patch that counts as flat, in multiples of the tolerance. The rest of the tolerance is
+/// for the patch's other vertices, which are compared with the plane of its corners.
 constexpr double greatest_thickness = 0.25;
 
-/// Sites of pieces and segments.
+/// For each site: does a piece or a segment use it?
 std::vector<bool> find_used(const Surface& surface) {
   std::vector<bool> used(surface.sites.position.size(), false);
   for (const Edge& e : surface.directed) used[e[0]] = used[e[1]] = true;
@@ -24,8 +24,8 @@ std::vector<bool> find_used(const Surface& surface) {
   return used;
 }
 
-/// Finds the flat parts of a patch that is not flat, such as a flat face that continues as a round one without an edge:
-/// sets of pieces grown from the largest ones along their plane.
+/// Finds the flat parts of a patch that is not flat, such as a flat face that continues as a round one without an edge.
+/// A part grows from one of the largest pieces, along the plane of this piece.
 class FlatParts {
  public:
   FlatParts(const Surface& surface, const std::vector<bool>& joined)
@@ -129,7 +129,7 @@ void merge_flat_patches(Surface& surface, Regions& regions) {
 }
 
 /// Removes the segments that are features of the facets: these are required anyway.
-void drop_segments_on_features(Surface& surface) {
+void remove_segments_on_features(Surface& surface) {
   const std::vector<bool> features = find_features(surface);
   std::set<Edge> kept;
   for (const Edge& segment : surface.segments) kept.insert(ascending(segment));
@@ -155,7 +155,7 @@ class StraightRuns {
       if (is_passed(site)) continue;
       for (const std::uint32_t next : around) {
         Run run = follow(site, next);
-        // It is found from both ends, if at all.
+        // A run between two ends is found from both of them, so one direction is enough.
         if (run.size() > 2 && run.front() < run.back() && is_straight(run)) runs.push_back(std::move(run));
       }
     }
@@ -174,7 +174,7 @@ class StraightRuns {
   }
   bool has_two(std::uint32_t site) const { return neighbors_.at(site).size() == 2; }
 
-  /// Sites at which a piece that comes from one neighbor does not continue to the other.
+  /// Finds the sites where the border of a piece comes from one neighbor and does not continue to the other.
   void find_turning_back() {
     std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> balance;  // of a site and a piece
     for (std::uint32_t i = 0; i < surface_.directed.size(); ++i) {
@@ -218,7 +218,7 @@ class StraightRuns {
   std::set<std::uint32_t> turning_back_;
 };
 
-/// For every edge along a run, in either direction, what it becomes: the first edge the whole run, the others nothing.
+/// What every edge along a run becomes, in either direction: the first edge becomes the whole run, the others vanish.
 std::map<Edge, Edge> find_replacements(const std::vector<Run>& runs) {
   constexpr Edge nothing = {none, none};
   std::map<Edge, Edge> become;
@@ -256,7 +256,7 @@ void merge_straight_chains(Surface& surface) {
   set_pieces(std::move(merged), surface);
 }
 
-/// Is an unused vertex on a piece or a segment nevertheless?
+/// Does an unused vertex lie on a piece or a segment?
 bool is_on_something(const Surface& surface, const PieceTree& tree, std::uint32_t site) {
   const Point3& p = surface.at(site);
   bool found = std::ranges::any_of(surface.segments, [&](const Edge& segment) {
@@ -272,7 +272,7 @@ bool is_on_something(const Surface& surface, const PieceTree& tree, std::uint32_
 void let_vertices_slide(Surface& surface, Regions& regions) {
   const std::vector<bool> was_used = find_used(surface);
   merge_flat_patches(surface, regions);
-  drop_segments_on_features(surface);
+  remove_segments_on_features(surface);
   merge_straight_chains(surface);
   const std::vector<bool> is_used = find_used(surface);
   const PieceTree tree(surface);

@@ -261,7 +261,7 @@ class BoundaryMatcher {
   FacetMatches& matches_;
   Boundary boundary_;
   Patches patches_;
-  IndexLists walls_;  // of each edge of the boundary: the surface's edges with chains along it that part patches
+  IndexLists walls_;  // for each boundary edge: the surface's edges along it that separate patches
 };
 
 class InteriorMatcher {
@@ -269,9 +269,9 @@ class InteriorMatcher {
   InteriorMatcher(const Topology& topology, const Surface& surface, FacetMatches& matches)
       : topology_(topology), surface_(surface), matches_(matches) {}
 
-  /// The faces that the mesh lists go before others that span the same facet as well. Whole facets come first, because
-  /// the sheets of a facet need not agree on its inner edges; then parts as small as the edges of the mesh allow, for
-  /// slightly bent facets.
+  /// If several sets of faces span a facet, those that the mesh lists have priority. Whole facets come first, because
+  /// the sheets of a facet need not agree on its inner edges. Then, for facets that are not quite flat, come parts as
+  /// small as the edges of the mesh allow.
   void match(const Chains& chains, const std::vector<bool>& features) {
     const auto is_left = [&](std::uint32_t use) { return matches_.found[surface_.piece_of[use]] == FoundAs::nothing; };
     std::vector<bool> joined(surface_.edges.size());
@@ -300,7 +300,7 @@ class InteriorMatcher {
 
   std::uint32_t last_plane() const { return static_cast<std::uint32_t>(matches_.planes.size() - 1); }
 
-  /// Each piece is a face of the mesh as it is.
+  /// Matches the pieces if each of them is a face of the mesh.
   /// \param is_flat  the pieces lie in the last of the planes
   bool match_piece_by_piece(std::span<const std::uint32_t> pieces, bool is_flat) {
     std::vector<MatchedFace> faces;

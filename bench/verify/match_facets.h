@@ -20,17 +20,17 @@ enum class FoundAs : std::uint8_t { nothing, boundary_of_above, boundary_of_belo
 
 /// The assignment of faces of the mesh to facets of the input.
 struct FacetMatches {
-  std::vector<MatchedFace> faces;          ///< those with one plane together
-  std::vector<Plane> planes;               ///< one an interior facet that is flat within the tolerance
-  std::vector<FoundAs> found;              ///< of each piece
-  std::vector<std::string> problem;        ///< by piece: the error of a similar part of the mesh
+  std::vector<MatchedFace> faces;          ///< grouped by plane
+  std::vector<Plane> planes;               ///< one for each interior facet that is flat within the tolerance
+  std::vector<FoundAs> found;              ///< for each piece
+  std::vector<std::string> problem;        ///< for each piece: the error of a similar part of the mesh
   std::vector<std::uint32_t> stray_faces;  ///< boundary faces without a facet
-  std::vector<bool> is_matched;            ///< of each face of the mesh
+  std::vector<bool> is_matched;            ///< for each face of the mesh
 };
 
 /// Matches the boundary of the mesh with facets first, then inner faces with the remaining facets.
-/// \param chains    of the surface's edges
-/// \param features  of the surface's edges, see `find_features`
+/// \param chains    the chains of the surface's edges
+/// \param features  for each edge of the surface, see `find_features`
 FacetMatches match_facets(const Topology& topology, const Surface& surface, const Chains& chains,
                           const std::vector<bool>& features);
 

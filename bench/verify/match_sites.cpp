@@ -10,7 +10,8 @@ namespace ccdt::verify {
 
 namespace {
 
-/// Gives each input vertex that has no site the nearest vertex of the mesh in use within `tolerances.place`, if any.
+/// Matches each input vertex without a site to the nearest mesh vertex within `tolerances.place` that is in use, if
+/// any.
 void match_nearest(const plc::InputPlc& input, const Topology& topology, const Tolerances& tolerances, Sites& sites) {
   const auto& vertices = topology.mesh.vertices;
   const Box bounds = expanded(bounding_box(input.vertices), tolerances.place);
@@ -33,7 +34,7 @@ void match_nearest(const plc::InputPlc& input, const Topology& topology, const T
       best = distance;
       site = near_input[k];
     });
-    // The first of several input vertices in one place is where the site is.
+    // If several input vertices share a site, the site takes the position of the first.
     if (site != none && sites.position[site] == vertices[site]) sites.position[site] = p;
   }
 }

@@ -227,7 +227,7 @@ bool is_feature(const Surface& surface, std::uint32_t e) {
 }
 
 struct ChainsOfRange {
-  std::vector<std::uint32_t> items, lengths;  ///< one chain behind the other, and how many vertices each has
+  std::vector<std::uint32_t> items, lengths;  ///< the vertices of all chains in order, and the length of each chain
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ Crossing cross_triangle(const Point3& p, const Point3& q, const Point3& a, const
   return from < 0 ? Crossing::up : Crossing::down;
 }
 
-/// A piece is the sum of the triangles of its directed edges with one of its vertices, as far as rays are concerned.
+/// How the line crosses a piece. For this test, a piece is the sum of the triangles that its directed edges make with
+/// one of its vertices.
 Crossing cross_piece(const Surface& surface, std::uint32_t piece, const Point3& p, const Point3& q) {
   const std::uint32_t origin = surface.directed[surface.piece_begin[piece]][0];
   int sum = 0;
@@ -50,7 +51,7 @@ struct Spoke {
   double angle;
 };
 
-/// The side of a piece that looks in the direction of growing angles around the edge of `use`, or of falling ones.
+/// The side of a piece that faces growing angles around the edge of `use`, or falling angles.
 std::uint32_t side(const Surface& surface, std::uint32_t use, bool growing) {
   return 2 * surface.piece_of[use] + (surface.is_forward(use) == growing ? 0 : 1);
 }

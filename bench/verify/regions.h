@@ -23,8 +23,8 @@ class RayShooter {
  public:
   explicit RayShooter(const Surface& surface);
 
-  /// All pieces that the ray from `start` out of the box meets, in their order along it; nothing if the ray grazes an
-  /// edge or two pieces are too close to be ordered. There are unlimited rays to choose from.
+  /// All pieces that the ray from `start` out of the box meets, in their order along it. Nothing if the ray grazes an
+  /// edge, or if two pieces are too close to be ordered. Each `attempt` is another ray; there is no limit.
   std::optional<std::vector<Hit>> shoot(const Point3& start, int attempt) const;
 
   /// How far a ray that starts at this height rises.
@@ -32,10 +32,10 @@ class RayShooter {
   /// Direction of a ray; its z is 1.
   static Point3 direction(int attempt);
 
-  /// Pieces near whose plane a point is, within the tolerance of flatness, and whose box is as near.
+  /// The pieces whose plane and whose box are within the tolerance of flatness of a point.
   std::vector<std::uint32_t> pieces_near(const Point3& point) const;
-  /// Is a point exactly on a piece across an axis, and if near its border, on an edge along an axis? Then it stays on
-  /// the piece when coordinates are rounded.
+  /// Is a point exactly on a piece that is perpendicular to an axis, and if near its border, on an edge along an axis?
+  /// Then it stays on the piece when coordinates are rounded.
   bool is_on_piece_across_axis(const Point3& point) const;
 
  private:
@@ -51,8 +51,8 @@ struct Regions {
   /// Region of each side of each piece: 2 * piece for above, 2 * piece + 1 for below. Region 0 reaches infinity.
   std::vector<std::uint32_t> of_side;
   std::vector<Inside> inside;                ///< of each region
-  std::vector<std::vector<int>> attributes;  ///< of each region, of the region seeds in it
-  std::vector<std::uint32_t> hole_seeds;     ///< of each region, how many are in it
+  std::vector<std::vector<int>> attributes;  ///< for each region: the attributes of the region seeds in it
+  std::vector<std::uint32_t> hole_seeds;     ///< for each region: how many are in it
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(inside.size()); }
   bool touches_inside(std::uint32_t piece) const {
@@ -63,9 +63,9 @@ struct Regions {
 /// Finds the regions: sides of pieces are glued around edges, and rays determine the nesting of shells.
 ///
 /// Which regions of a surface (`Inside::even_odd`) are inside depends on its shells, which are connected pieces. A
-/// region is inside if an odd number of shells, or of pieces on the shortest way to infinity, is around it. Where the
-/// two differ, which takes regions that share pieces and of which one is enclosed by others, either is right:
-/// `Inside::unknown`.
+/// region is inside if an odd number of shells is around it, or if an odd number of pieces is on the shortest way to
+/// infinity. The two rules can differ only if regions share pieces and others enclose one of them. Then either answer
+/// is right: `Inside::unknown`.
 Regions find_regions(const plc::InputPlc& input, const Surface& surface);
 
 /// The regions that a point is in, or borders on if it lies on the surface. Empty if the surface there is too irregular

@@ -17,8 +17,8 @@ void append_edges(const Side& side, std::uint32_t end, std::vector<Edge>& edges)
   for (std::size_t k = 0; k < side.size(); ++k) edges.push_back({side[k], k + 1 < side.size() ? side[k + 1] : end});
 }
 
-/// Adds a triangle whose sides are split, in parts: a site very near to a corner cuts a needle off, which may be flat
-/// with the facet across its long side.
+/// Adds a triangle with split sides in parts. A site very near a corner cuts off a needle, which may lie flat with the
+/// facet across its long side.
 class PartsOfTriangle {
  public:
   using Add = std::function<void(std::span<const Edge>)>;
@@ -49,7 +49,7 @@ class PartsOfTriangle {
     add_(outline);
   }
 
-  /// Is a triangle with a short side ab so low that it may be flat with one across a sharp edge?
+  /// Is the triangle, whose side ab is short, so low that it may lie flat with a triangle across a sharp edge?
   bool is_needle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Point3 ab = surface_.at(b) - surface_.at(a), ac = surface_.at(c) - surface_.at(a);
     const double most = 10 * surface_.tolerances.flat;

@@ -30,7 +30,7 @@ class PlaneFaces {
   double area_above(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return 0.5 * dot(patches_.normal[patch_], cross(at(b) - at(a), at(c) - at(a)));
   }
-  /// Of faces at an edge; faces with less would be turned over.
+  /// The least area, as seen from above, of a face at an edge. A face with less would be turned over.
   double least_area(std::uint32_t a, std::uint32_t b) const { return -flat * length(at(b) - at(a)); }
 
   /// Calls visit(FaceAtEdge) for the inner faces in the plane to the left of a directed edge.
@@ -58,8 +58,8 @@ class PlaneFaces {
   std::uint32_t patch_;
 };
 
-/// The faces in the plane that are reached from the links, each from the side that may be its upper one, without those
-/// that have an edge without a next face.
+/// The faces in the plane that are reached from the links, each from the side that may be its upper one. Faces with an
+/// edge where no other face continues are left out.
 class FacesWithoutDeadEnds {
  public:
   FacesWithoutDeadEnds(const Topology& topology, const PlaneFaces& plane, const std::vector<Edge>& links)
@@ -69,13 +69,13 @@ class FacesWithoutDeadEnds {
       open_.pop_back();
       gather(a, b);
     }
-    drop_dead_ends();
+    remove_dead_ends();
   }
 
   bool has(std::uint32_t half_face) const { return half_faces_.contains(half_face); }
 
  private:
-  /// Those of a face, as its upper side has them to their left.
+  /// The directed edges of a face, with its upper side to their left.
   std::array<Edge, 3> edges_of(std::uint32_t half_face) const {
     const auto [u, v, w] = outward(topology_.mesh, half_face);
     return {{{v, u}, {u, w}, {w, v}}};
@@ -98,10 +98,10 @@ class FacesWithoutDeadEnds {
     const auto found = at_edge_.find(reverse);
     if (found == at_edge_.end() || links_.contains(reverse)) return false;
     const auto [one, other] = topology_.half_faces[face_of(topology_, half_face)];
-    return found->second > int{has(half_face == one ? other : one)};  // the same face from below is no other one
+    return found->second > int{has(half_face == one ? other : one)};  // the same face from below does not count
   }
 
-  void drop_dead_ends() {
+  void remove_dead_ends() {
     std::vector<std::uint32_t> left(half_faces_.begin(), half_faces_.end());
     for (std::size_t dropped = 1; dropped > 0;)
       dropped = std::erase_if(left, [&](std::uint32_t half_face) {

@@ -34,7 +34,8 @@ Point3 area_vector(std::span<const Edge> loop, std::span<const Point3> position)
   return sum;
 }
 
-/// The longest of the vectors whose sum is the area vector: along the normal also if a loop runs back over itself.
+/// The longest of the vectors whose sum is the area vector. It is along the normal even if a loop runs back over
+/// itself.
 Point3 normal_of(std::span<const Edge> loop, std::span<const Point3> position) {
   Point3 longest;
   for (const auto& [a, b] : loop) {
@@ -192,7 +193,7 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, const Surface& s
   return result;
 }
 
-/// Do the edges enclose nothing, because each runs there and back or because all are on one line?
+/// Do the edges enclose nothing, because each occurs in both directions or because all are on one line?
 bool is_empty(const PolygonCell& cell, std::span<const Point3> position) {
   if (cell.empty()) return true;
   const auto& [a, b] = cell[0];
@@ -206,13 +207,13 @@ bool is_empty(const PolygonCell& cell, std::span<const Point3> position) {
   return there == back;
 }
 
-/// Leaves out what has no area, from the start or because vertices are in one place.
+/// Adds a piece unless it has no area, which may also be because vertices are in one place.
 void add_piece(PolygonCell cell, int marker, std::uint32_t number, std::span<const Point3> position, Pieces& pieces) {
   std::erase_if(cell, [](const Edge& e) { return e[0] == e[1]; });
   if (!is_empty(cell, position)) pieces.add(cell, marker, number);
 }
 
-/// The same for triangles.
+/// Adds the triangles that have an area.
 void add_triangles(const plc::InputPlc& input, const Sites& sites, Pieces& pieces) {
   const auto site = [&](std::size_t i, std::size_t k) { return sites.of_input[input.triangles[i][k]]; };
   const auto at = [&](std::size_t i, std::size_t k) { return sites.position[site(i, k)]; };
@@ -269,13 +270,13 @@ void index_edges(Surface& surface) {
   first.push_back(static_cast<std::uint32_t>(n));
 }
 
-/// Finds those of a list of sites that are on an edge.
+/// Finds which sites of a list are on an edge.
 class SiteFinder {
  public:
   SiteFinder(const Surface& surface, std::vector<std::uint32_t> sites)
       : surface_(surface), sites_(std::move(sites)), tree_(boxes_of(surface, sites_), surface.tolerances) {}
 
-  /// In their order from the first end to the second, without both.
+  /// The sites on the edge in order from its first end to its second, without the ends.
   std::vector<std::uint32_t> within(const Edge& edge) const {
     std::vector<std::uint32_t> near;
     const Box box = hull(box_of(surface_.at(edge[0])), box_of(surface_.at(edge[1])));
@@ -296,8 +297,8 @@ class SiteFinder {
   ScaledBoxTree tree_;
 };
 
-/// Splits edges that do not have two facets at the ends of others of that kind. (An edge between two facets is complete
-/// as it is.)
+/// Splits each edge that is not between two facets at the ends of other such edges. (An edge between two facets is
+/// complete as it is.)
 void split_edges(Surface& surface) {
   std::vector<std::uint32_t> sites;
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
@@ -419,7 +420,7 @@ DrawnLoops trace_drawing(const Point3& normal, const std::set<Edge>& undirected,
   cells = loops;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     if (areas[i] > 0) continue;
-    // Its vertices may be on the border of the cell, as those of a line that crosses it are.
+    // The loop's vertices may be on the border of the cell, for example if a line crosses the cell.
     const auto& [a, b] = loops[i][0];
     const auto within = drawing.at(position[a] + 0.5 * (position[b] - position[a]));
     const std::size_t around = smallest_around(drawing, loops, areas, within,

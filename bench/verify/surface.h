@@ -64,7 +64,7 @@ using PolygonCell = std::vector<Edge>;
 struct DrawnLoops {
   std::vector<PolygonCell> loops;  ///< closed walks, each with a face to its left
   std::vector<double> areas;       ///< of each loop; positive if it is the outer loop of its face
-  std::vector<PolygonCell> cells;  ///< of each outer loop: with the loops of what lies within
+  std::vector<PolygonCell> cells;  ///< each outer loop, with the loops of everything inside it
 };
 
 /// \param normal      of the plane, from the side that it is seen from
@@ -122,13 +122,13 @@ void set_pieces(Pieces pieces, Surface& surface);
 /// Splits the directed edges at the sites that `within` gives for an edge, from the edge's first end to its second.
 void split_directed(const std::function<std::vector<std::uint32_t>(std::uint32_t edge)>& within, Surface& surface);
 
-/// The sites strictly within an edge out of some, in the order from its first end to its second.
+/// Those of the given sites that are strictly within an edge, in order from its first end to its second.
 std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edge,
                                          std::span<const std::uint32_t> sites);
 
 Surface find_surface(const plc::InputPlc& input, Sites sites, const Tolerances& tolerances);
 
-/// Splits the segments that are chosen at the vertices of the input on them.
+/// Splits the chosen segments at the input vertices on them.
 void split_segments(const std::vector<bool>& chosen, Surface& surface);
 
 }  // namespace ccdt::verify

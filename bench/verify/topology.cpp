@@ -11,7 +11,7 @@ namespace ccdt::verify {
 
 namespace {
 
-/// Each thread counts those of a part of the mesh, and enters them after
+/// Finds the tetrahedra around each vertex. Each thread counts those of one part of the mesh, and enters them after
 /// those of the earlier parts.
 Stars find_stars(const mesh::TetMesh& mesh) {
   const std::size_t size = mesh.tetrahedra.size(), vertices = mesh.vertices.size();
@@ -20,7 +20,7 @@ Stars find_stars(const mesh::TetMesh& mesh) {
     for (std::size_t t = size * part / parts; t < size * (part + 1) / parts; ++t)
       for (const std::uint32_t v : mesh.tetrahedra[t]) visit(v, static_cast<std::uint32_t>(t));
   };
-  std::vector<std::vector<std::uint32_t>> places(parts);  // of each part and vertex: how many, then where they begin
+  std::vector<std::vector<std::uint32_t>> places(parts);  // for each part and vertex: the count, then the first place
   parallel_for(parts, 1, [&](std::size_t part) {
     auto& count = places[part];
     count.assign(vertices, 0);
@@ -54,7 +54,7 @@ struct Entry {
 /// A half-face as one of its vertices sees it.
 struct SeenHalfFace {
   std::uint8_t one = 0, other = 0;  ///< the corners with its other two vertices, ascending
-  bool odd = false;                 ///< as in `Entry` if the vertices in all corners were ascending
+  bool odd = false;                 ///< the value of `Entry::odd` if the vertices of the corners are ascending
 };
 
 /// The half-face opposite to `corner`, seen from the vertex in the corner `place`.
@@ -63,7 +63,7 @@ constexpr SeenHalfFace see_half_face(unsigned place, unsigned corner) {
   unsigned count = 0;
   for (std::uint8_t k = 0; k < 4; ++k)
     if (k != place && k != corner) others[count++] = k;
-  // Its corners in their order are counterclockwise if the one left out is the first or third.
+  // In their order, the corners of the half-face are counterclockwise if the corner left out is the first or third.
   const unsigned rank = place - (corner < place ? 1 : 0);
   return {others[0], others[1], ((corner ^ rank) & 1) != 0};
 }
@@ -76,8 +76,8 @@ constexpr auto seen_half_faces = [] {
   return seen;
 }();
 
-/// A vertex is the least one of three half-faces of a tetrahedron if no vertex is less, of one if one is less, and
-/// otherwise of none.
+/// Finds the half-faces of which this vertex is the least. A tetrahedron has three if none of its vertices is less, one
+/// if one vertex is less, and none otherwise.
 void find_entries(const Topology& topology, std::uint32_t vertex, std::vector<Entry>& entries) {
   constexpr std::uint32_t ahead = 16;
   const auto& tetrahedra = topology.mesh.tetrahedra;

@@ -139,8 +139,8 @@ class RaysIfNeeded {
   std::optional<RayShooter> rays_;
 };
 
-/// Is a point in or on the domain? One that is on its boundary only within the tolerance need not be: a mesher that
-/// takes coordinates as they are, or rounds them, may find it outside.
+/// Is a point in or on the domain? No, if it is on the boundary only within the tolerance: a mesher that uses exact or
+/// rounded coordinates may find it outside.
 bool is_in_domain(const Surface& surface, const Regions& regions, RaysIfNeeded& rays_if_needed, const Point3& p) {
   const RayShooter& rays = rays_if_needed.get();
   const auto is_inside = [&](std::uint32_t region) { return regions.inside[region] == Inside::yes; };
@@ -251,8 +251,8 @@ bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {
   return options.delaunay == VerifyOptions::Delaunay::yes;
 }
 
-/// Splits the segments that the mesh does not have as a whole: only a part of one may be in the domain. (One that it
-/// has may pass a vertex of the input within the tolerance, and then its parts are not in the mesh.)
+/// Splits the segments that are not complete in the mesh, since the domain may contain only a part of one. (A complete
+/// one stays whole: if it passes a vertex of the input within the tolerance, its parts are not in the mesh.)
 void split_incomplete_segments(const Topology& topology, Surface& surface) {
   const Chains chains = find_chains(topology, surface, surface.segments);
   std::vector<bool> incomplete;
@@ -321,7 +321,7 @@ constexpr double least_flatness = 1e-11;
 
 /// Checks with smaller and smaller flatness until the mesh is right.
 ///
-/// \param result  gets the checks if it is
+/// \param result  gets the checks if the mesh is found right
 void check_until_right(const plc::InputPlc& input, const Topology& topology, decltype(find_tolerances)& tolerances,
                        double flatness, const VerifyOptions& options, const Progress& progress,
                        const Verification& before, Verification& result) {
@@ -333,9 +333,9 @@ void check_until_right(const plc::InputPlc& input, const Topology& topology, dec
 }
 
 /// If only facets are not found, smaller tolerances are tried as well. Facets that are right at one tolerance are right
-/// at all greater ones. But where they are as narrow as the tolerance, there is more than one way to match them with
-/// the mesh. Where parts are as near to each other as coordinates are rounded, the mesh is compared with the rounded
-/// input: there, new vertices are exactly in place, and facets without area are those that the engine leaves out.
+/// at all greater ones. But where facets are as narrow as the tolerance, they match the mesh in more than one way.
+/// Where parts are as close together as rounding moves coordinates, the mesh is compared with the rounded input: there,
+/// new vertices are exactly in place, and the engine leaves out just the facets without area.
 ///
 /// \param result  gets the checks; if the mesh is never right, those at the given flatness
 void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
@@ -383,9 +383,9 @@ Check check_crossings(const plc::InputPlc& boundary, bool required) {
   return check;
 }
 
-/// The boundary of the mesh encloses its tetrahedra, each point once: by the same argument as above, with the boundary
-/// as the input.
-/// \pre  it does not cross itself
+/// The boundary of the mesh encloses its tetrahedra, and each point once. The argument is the same as above, with the
+/// boundary as the input.
+/// \pre  the boundary does not cross itself
 Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, const Progress& progress) {
   Verification by_itself;
   check_against_input(boundary, topology, find_tolerances(boundary, 0), {.delaunay = VerifyOptions::Delaunay::no},

@@ -70,7 +70,7 @@ struct Verification {
 /// Checks a mesh exactly against its input, by CGAL's exact kernel. It shares no predicate with the engine and works on
 /// any mesher's output.
 ///
-/// \param input  its polygons must be planar; see `plc::triangulate_bent_facets`
+/// \param input  its polygons must be planar; see `plc::triangulate_warped_facets`
 Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 

@@ -8,7 +8,7 @@
 
 namespace ccdt {
 
-/// From a point to that point plus a vector.
+/// The segment from a point to that point plus a vector.
 struct LineSegment {
   Point3 from, along;
 };
@@ -34,7 +34,7 @@ struct Box {
     const Point3 nearest = componentwise_max(low, componentwise_min(high, ball.center));
     return squared_length(nearest - ball.center) <= ball.radius * ball.radius;
   }
-  // The part of the segment between two parallel planes of the box, up to rounding.
+  // Narrows the segment to the part between each two parallel planes of the box. Up to rounding.
   bool meets(const LineSegment& s) const {
     double from = 0, to = 1;
     const auto clip = [&](double least, double most, double start, double along) {

@@ -7,8 +7,8 @@ namespace ccdt {
 
 /// A value of an enumeration with its name on the command line and in JSON, and what it means.
 ///
-/// Beside each enumeration `E` that people name, the function `names_of(E)` returns an array of these, in the order in
-/// which help texts list them.
+/// For each enumeration `E` with such names, the function `names_of(E)` returns an array of these, in the order of help
+/// texts.
 template <class Enum>
 struct NamedValue {
   Enum value;

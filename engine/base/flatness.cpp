@@ -24,8 +24,8 @@ bool uses_last_bit(double x) {
   return (std::bit_cast<std::uint32_t>(static_cast<float>(x)) & 1) != 0;
 }
 
-/// Are the coordinates numbers of single precision, and have some been rounded to it? Numbers that need fewer bits,
-/// like integers, are probably meant.
+/// Are all coordinates of single precision, and have some been rounded to it? Numbers that need fewer bits, like
+/// integers, are probably exact.
 bool are_rounded_to_single(std::span<const Point3> points) {
   const auto all = [](const Point3& p, const auto& holds) { return holds(p.x) && holds(p.y) && holds(p.z); };
   const auto any = [](const Point3& p, const auto& holds) { return holds(p.x) || holds(p.y) || holds(p.z); };

@@ -11,7 +11,7 @@
 namespace ccdt {
 
 /// The properties of keys that a `HashTable` needs: `none()` is a key that never occurs and marks the empty places;
-/// `hash(key)` should fill all bits, as tables use the lowest.
+/// `hash(key)` should fill all bits, since tables use the lowest.
 template <class Key>
 struct HashTraits;
 
@@ -30,7 +30,7 @@ struct HashTraits<Index<Tag>> {
   static std::size_t hash(Index<Tag> key) { return HashTraits<std::uint32_t>::hash(key.value); }
 };
 
-/// Edges, by `edge_key`, and other numbers of 64 bits.
+/// Edges, by `edge_key`, and other 64-bit numbers.
 template <>
 struct HashTraits<std::uint64_t> {
   static constexpr std::uint64_t none() { return ~std::uint64_t{0}; }
@@ -57,7 +57,7 @@ constexpr bool is_same_key(const std::array<std::uint32_t, 3>& a, const std::arr
   return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
 }
 
-/// A hash table in one flat array: open addressing with linear probing, entries move back when an earlier one is
+/// A hash table in one flat array: open addressing with linear probing. Entries move back when an earlier one is
 /// removed, so there are no tombstones. Pointers to values are valid until the next insertion or removal.
 template <class Key, class Value, class Traits = HashTraits<Key>>
 class HashTable {
@@ -69,7 +69,7 @@ class HashTable {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
-  /// The number of all places, including empty ones.
+  /// Of all places, including empty ones.
   std::size_t bytes() const { return entries_.size() * sizeof(Entry); }
   void clear() { *this = {}; }
 
@@ -80,7 +80,7 @@ class HashTable {
     if (places > entries_.size()) grow(places);
   }
 
-  /// Fetches the place of a key that will be looked up soon into the cache.
+  /// Fetches into the cache the place of a key that will be looked up soon.
   void prefetch(const Key& key) const {
     if (!entries_.empty()) __builtin_prefetch(&entries_[home(key)]);
   }
@@ -122,7 +122,7 @@ class HashTable {
     std::size_t gap = 0;
     for (gap = place_of(value);;) {
       std::size_t i = next(gap);
-      // The next entry that may move to the gap: its home is not between the gap and itself.
+      // Finds the next entry that may move to the gap: its home is not between the gap and its place.
       for (; !is_empty(i); i = next(i))
         if (((i - home(entries_[i].key)) & mask()) >= ((i - gap) & mask())) break;
       if (is_empty(i)) break;

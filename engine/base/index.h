@@ -5,7 +5,7 @@
 
 namespace ccdt {
 
-/// Instead of an index or a code of 32 bits: there is none.
+/// Stands for a missing index or code of 32 bits.
 inline constexpr std::uint32_t none = 0xFFFFFFFFu;
 
 /// An index that cannot be mistaken for an index of another kind.

@@ -10,7 +10,7 @@
 
 namespace ccdt {
 
-/// Puts two zero bits between the bits of a number of 21 bits.
+/// Puts two zero bits between the bits of a 21-bit number.
 constexpr std::uint64_t spread_bits(std::uint64_t x) {
   x = (x | x << 32) & 0x001F00000000FFFFu;
   x = (x | x << 16) & 0x001F0000FF0000FFu;
@@ -29,7 +29,7 @@ constexpr std::uint32_t gather_bits(std::uint64_t x) {
   return static_cast<std::uint32_t>(x | x >> 32);
 }
 
-/// The Morton code of three coordinates of 21 bits: their bits interleaved, those of x lowest.
+/// The Morton code of three 21-bit coordinates: their bits interleaved, those of x lowest.
 constexpr std::uint64_t morton_code(const std::array<std::uint32_t, 3>& c) {
   return spread_bits(c[0]) | spread_bits(c[1]) << 1 | spread_bits(c[2]) << 2;
 }
@@ -54,7 +54,7 @@ struct KeyedIndex {
 /// The indices sorted by key, equal keys by index.
 std::vector<std::uint32_t> sorted_by_key(RawVector<KeyedIndex> items);
 
-/// The indices of points in Morton order, in a grid of 2^21 cells per side around them; points of one cell keep their
+/// The indices of points in Morton order, in a grid of 2^21 cells per side around them; points in one cell keep their
 /// order.
 std::vector<std::uint32_t> morton_order(std::span<const Point3> points);
 

@@ -151,8 +151,8 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
   return all;
 }
 
-/// Adds one to numbers to which all threads of the following loops add; make it before these loops, not in them. One
-/// thread alone does not pay for this.
+/// Adds one to numbers that all threads of the following loops add to. Make it before these loops, not in them. A
+/// single thread does not pay for atomic operations.
 class AddOne {
  public:
   /// \return  the number before
@@ -164,8 +164,8 @@ class AddOne {
   const bool is_alone_ = thread_count() == 1;
 };
 
-/// Sets bits in bytes in which all threads of the following loops set some; make it before these loops, not in them.
-/// One thread alone does not pay for this, nor do bits that are set already.
+/// Sets bits in bytes that all threads of the following loops set bits in. Make it before these loops, not in them. A
+/// single thread does not pay for atomic operations, nor do bits that are set already.
 class SetBits {
  public:
   /// \return  the byte before
@@ -180,7 +180,7 @@ class SetBits {
   const bool is_alone_ = thread_count() == 1;
 };
 
-/// Fills a list to which each chunk of 0 .. count adds some items, on several threads, in the order of the chunks.
+/// Fills a list, on several threads. Each chunk of 0 .. count adds some items, in the order of the chunks.
 ///
 /// \param count_in   `count_in(begin, end)`: how many items these indices add
 /// \param make_room  `make_room(size)`: called once with the number of all items

@@ -18,7 +18,7 @@ constexpr std::size_t large_page = std::size_t{1} << 21;
 
 void* allocate_large_pages(std::size_t bytes) {
   void* const place = ::operator new (bytes, std::align_val_t{large_page});
-  madvise(place, bytes, MADV_HUGEPAGE);  // a hint: without large pages, all is as usual
+  madvise(place, bytes, MADV_HUGEPAGE);  // a hint: without large pages, nothing changes
   return place;
 }
 

@@ -9,8 +9,8 @@
 
 namespace ccdt {
 
-/// Leaves new elements of a plain type as they are in memory, unless they are given a value. The initial values of
-/// their members do not count.
+/// Leaves new elements of a plain type uninitialized, unless they are given a value. This ignores default member
+/// initializers.
 template <class T>
 struct RawAllocator : std::allocator<T> {
   template <class U>
@@ -30,7 +30,7 @@ template <class T>
 using RawVector = std::vector<T, RawAllocator<T>>;
 
 /// Memory in large pages.
-/// \throw std::bad_alloc  there is not so much
+/// \throw std::bad_alloc  there is not enough memory
 void* allocate_large_pages(std::size_t bytes);
 void free_large_pages(void* place);
 
@@ -53,8 +53,8 @@ struct LargePageAllocator : RawAllocator<T> {
   }
 };
 
-/// A `RawVector` that lives long and is read all over the place, which is faster with large pages. They are not worth
-/// their price for an array that is read once.
+/// A `RawVector` that lives long and is read in scattered places, which is faster with large pages. They are not worth
+/// their cost for an array that is read once.
 template <class T>
 using LargeVector = std::vector<T, LargePageAllocator<T>>;
 

@@ -12,7 +12,7 @@ namespace ccdt {
 /// Disjoint sets of 0, 1, ..., n-1 that several threads may join and find at the same time. As in `UnionFind`, the
 /// representative of a set is its smallest member, whatever the order of the joins.
 ///
-/// Once a member has a smaller parent, each parent that it ever gets is one of the set on the way down to the
+/// Once a member has a smaller parent, each later parent is also a member of the set, on the way down to the
 /// representative. So old parents that a thread reads or writes back do no harm, and only the join of a representative
 /// must be atomic (Jayanti and Tarjan 2016).
 class SharedUnionFind {
@@ -30,7 +30,7 @@ class SharedUnionFind {
     return i;
   }
 
-  /// Of each i. A parent is never greater than its child, so most are found in one step.
+  /// The representative of each i. A parent is never greater than its child, so most are found in one step.
   RawVector<std::uint32_t> take_representatives() && {
     parallel_for(parent_.size(), grain, [&](std::size_t i) {
       const auto member = static_cast<std::uint32_t>(i);
@@ -62,7 +62,7 @@ class SharedUnionFind {
   static constexpr std::size_t grain = 4096;  ///< of loops on several threads
 
   RawVector<std::uint32_t> parent_;
-  const bool is_alone_ = thread_count() == 1;  ///< one thread alone does not pay for atomic joins
+  const bool is_alone_ = thread_count() == 1;  ///< a single thread does not pay for atomic joins
 };
 
 }  // namespace ccdt

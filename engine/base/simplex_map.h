@@ -27,7 +27,7 @@ constexpr FaceKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return {std::min(low, c), std::max(low, std::min(high, c)), std::max(high, c)};
 }
 
-/// Is the order of three different corners an odd permutation of the increasing one? Triangles with the same corners
+/// Is the order of three distinct corners an odd permutation of the increasing order? Triangles with the same corners
 /// face the same way if both are odd or both are even.
 constexpr bool is_odd(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return ((a > b) ^ (b > c) ^ (a > c)) != 0;
@@ -40,7 +40,7 @@ class SimplexMap {
   using Corners = std::array<std::uint32_t, N>;
 
   SimplexMap() = default;
-  /// \param simplices  corners of any integer or index type; edges are pairwise different
+  /// \param simplices  corners of any integer or index type; edges are distinct
   /// \param vertices   more than each corner
   template <class Id>
   SimplexMap(const std::vector<std::array<Id, N>>& simplices, std::size_t vertices)
@@ -48,7 +48,7 @@ class SimplexMap {
     constexpr std::size_t grain = 4096;
     const AddOne add_one;
     parallel_for(simplices.size(), grain, [&](std::size_t i) { add_one(first_[2 + sorted(simplices[i])[0]]); });
-    // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
+    // Each list's beginning, stored one place too far. Filling moves it to the list's end, the next one's beginning.
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     parallel_for(simplices.size(), grain, [&](std::size_t i) {
       const Corners corners = sorted(simplices[i]);
@@ -72,7 +72,7 @@ class SimplexMap {
   /// A triangle in the given list.
   struct Found {
     std::uint32_t index;       ///< the least one of triangles with these corners; `none` if it is not there
-    bool faces_the_other_way;  ///< than the corners do in the order in which they were given
+    bool faces_the_other_way;  ///< than the corners in the given order
   };
   Found find(std::uint32_t a, std::uint32_t b, std::uint32_t c) const requires(N == 3) {
     const FaceKey key = face_key(a, b, c);
@@ -113,7 +113,7 @@ struct AtEdge {
   auto operator<=>(const AtEdge&) const = default;
 };
 
-/// Sorts the values by edge, and those of an edge.
+/// Sorts the values by edge, and within each edge.
 ///
 /// \param values  a vector of `AtEdge`
 template <class Values>

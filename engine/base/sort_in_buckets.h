@@ -16,7 +16,7 @@ namespace ccdt {
 
 namespace bucket_sort {
 
-/// Items go to ranges of buckets first.
+/// How many ranges of buckets the items go to first.
 inline constexpr std::size_t range_count = 256;
 inline constexpr std::size_t chunk_length = 1 << 15;        ///< of loops on several threads
 using Places = std::array<std::uint32_t, range_count + 1>;  ///< where each range begins, and the end
@@ -49,7 +49,7 @@ Places find_places(const Items& items, const RangeOf& range_of, std::vector<Plac
   return first;
 }
 
-/// Puts the items from `first` to `last` into order, where they go to `sorted`.
+/// Sorts the items from `first` to `last` into the same places of `sorted`.
 ///
 /// \param bucket_of  of an item, counted from the first one of the range
 /// \param end_of     working memory: as many zeros as there are buckets in the range
@@ -59,7 +59,7 @@ void sort_range(const RawVector<Item>& items, std::uint32_t first, std::uint32_t
   for (std::uint32_t i = first; i < last; ++i) ++end_of[bucket_of(items[i])];
   std::uint32_t begin = first;
   for (std::uint32_t& end : end_of) begin += std::exchange(end, begin);
-  // So far each entry is where the bucket begins. Each item moves it on, to where the bucket ends.
+  // At first, each entry is where its bucket begins. Each item moves it on, finally to where the bucket ends.
   for (std::uint32_t i = first; i < last; ++i) sorted[end_of[bucket_of(items[i])]++] = items[i];
   begin = first;
   for (std::uint32_t& end : end_of) {
@@ -70,14 +70,14 @@ void sort_range(const RawVector<Item>& items, std::uint32_t first, std::uint32_t
 
 }  // namespace bucket_sort
 
-/// Sorts items by a small integer of each, their bucket, and then within each bucket, on several threads. That is fast
-/// if there are a few items in a bucket.
+/// Sorts items by a small integer of each, their bucket, and then within each bucket, on several threads. This is fast
+/// if each bucket has only a few items.
 ///
-/// All items go to ranges of buckets first. Each thread counts and places its own, so that no two write to the same
-/// place, and then sorts whole ranges, which fit into its cache.
+/// First, all items go to ranges of buckets. Each thread counts and places its own items, so that no two write to the
+/// same place. Then it sorts whole ranges, which fit into its cache.
 ///
 /// \param bucket_of  of an item: the order of the buckets is part of the order of the items
-/// \param less       a strict order: no two items are alike, or it does not matter which one comes first
+/// \param less       a strict order; equal items may come in any order
 template <class Items, class BucketOf, class Less = std::less<>>
 void sort_in_buckets(Items& items, const BucketOf& bucket_of, const Less& less = {}) {
   using namespace bucket_sort;
@@ -90,7 +90,7 @@ void sort_in_buckets(Items& items, const BucketOf& bucket_of, const Less& less =
   const auto range_of = [&](const Item& item) { return std::size_t{bucket_of(item)} >> shift; };
   std::vector<Places> places;
   const Places first = find_places(items, range_of, places);
-  // One thread alone would sort a range that has most of the items.
+  // A single thread would sort a range that has most of the items.
   for (std::size_t range = 0; range < range_count; ++range)
     if (first[range + 1] - first[range] > items.size() / 2) return sort_in_runs(items, less);
 

@@ -13,7 +13,7 @@ namespace ccdt {
 /// Sorts runs of the items on one thread each, and merges them.
 ///
 /// \param sort_run  called with two iterators
-/// \param less      a strict order: no two items are alike, or it does not matter which one comes first
+/// \param less      a strict order; equal items may come in any order
 template <class Items, class SortRun, class Less>
 void sort_in_runs(Items& items, const SortRun& sort_run, const Less& less) {
   constexpr std::size_t least_run = 4096;

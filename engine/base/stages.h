@@ -9,7 +9,7 @@
 
 namespace ccdt {
 
-/// A stage of meshing, in their order.
+/// A stage of meshing. The stages are in order.
 enum class Stage : std::uint8_t {
   remesh,
   plc,
@@ -42,11 +42,11 @@ constexpr auto names_of(Stage) {
        {Stage::improve, "improve", "removes Steiner vertices and bad tetrahedra"}});
 }
 
-/// What a stage costs; all zero if it was left out.
+/// What a stage costs; all zero if it was skipped.
 struct StageCost {
   double seconds = 0;      ///< wall-clock
   double cpu_seconds = 0;  ///< of all threads of the process together
-  unsigned threads = 0;    ///< the most that worked at the same time
+  unsigned threads = 0;    ///< the largest number at work at the same time
   Work work = {};
 };
 

@@ -22,11 +22,11 @@
 namespace ccdt::thread_backend {
 namespace {
 
-/// One thread alone does without oneTBB, which takes 1 ms to start.
+/// A single thread does without oneTBB, which takes 1 ms to start.
 thread_local bool is_alone = false;
 
-/// Calls `use(guarded)`, which calls our own functions by `guarded`. What else fails is oneTBB itself: it starts
-/// threads when it needs them, and the system may have no memory or number left for another one.
+/// Calls `use(guarded)`, which calls our own functions through `guarded`. Any other failure is that of oneTBB itself:
+/// it starts threads when it needs them, and the system may lack memory, or allow no more threads.
 ///
 /// \throw LimitError  oneTBB failed
 /// \throw ...         what our functions throw

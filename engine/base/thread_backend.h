@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <functional>
 
-/// What loops on several threads run on. Templates are in base/parallel.h, so that only one source includes a library
-/// for threads: its headers take longer to compile than most of our files.
+/// What loops on several threads run on. Templates are in base/parallel.h, so that only one source file includes a
+/// threading library: its headers take longer to compile than most of our files.
 namespace ccdt::thread_backend {
 
 unsigned core_count();

@@ -18,7 +18,7 @@ struct UniformGrid {
 
   using CellIndex = std::array<int, 3>;
 
-  /// The cell that holds the point; points outside count to the nearest cell.
+  /// The cell that holds the point; points outside belong to the nearest cell.
   CellIndex cell_at(const Point3& p) const {
     return {axis_cell(p.x - low.x, 0), axis_cell(p.y - low.y, 1), axis_cell(p.z - low.z, 2)};
   }

@@ -18,7 +18,7 @@ class UnionFind {
     return i;
   }
 
-  /// Of each i. A parent is never greater than its child, so one pass finds all.
+  /// The representative of each i. A parent is never greater than its child, so one pass finds all.
   std::vector<std::uint32_t> take_representatives() && {
     for (std::uint32_t& parent : parent_) parent = parent_[parent];
     return std::move(parent_);

@@ -7,7 +7,7 @@ namespace ccdt {
 
 /// What the engine did, in numbers that depend only on the input and the options: the same on every machine, whatever
 /// the compiler and the load. If they change, the algorithm has changed. There are two exceptions: a time limit for
-/// improvement, and several threads, where vertices are inserted in another order.
+/// improvement, and several threads, which insert vertices in a different order.
 struct Work {
   // ---- Signs of determinants (engine/geometry)
   std::uint64_t orient3d_filter_failures = 0;  ///< `orient3d` that floating point could not decide
@@ -40,6 +40,9 @@ struct Work {
   std::uint64_t edges_tested = 0;       ///< `incircle` tests that find out whether an edge is Delaunay
   std::uint64_t edges_flipped = 0;      ///< edges that the other diagonal replaced; in the surface remesher too
   std::uint64_t triangles_visited = 0;  ///< triangles that searches visited around a vertex or on the way to a point
+
+  // ---- Protection of the surface (engine/folds)
+  std::uint64_t fold_rounds = 0;  ///< times that nearly flat facets were divided, and protection started again
 
   // ---- Interior points (engine/lattice)
   std::uint64_t octree_nodes_created = 0;  ///< of the octree of lattice cells and those of locators
@@ -128,6 +131,7 @@ inline constexpr auto work_counts = std::to_array<WorkCount>({
     {"edges_tested", &Work::edges_tested},
     {"edges_flipped", &Work::edges_flipped},
     {"triangles_visited", &Work::triangles_visited},
+    {"fold_rounds", &Work::fold_rounds},
     {"octree_nodes_created", &Work::octree_nodes_created},
     {"rays_cast", &Work::rays_cast},
     {"ray_triangles", &Work::ray_triangles},

@@ -16,7 +16,7 @@ using delaunay::no_neighbor;
 using Numbers = Surrounded<std::uint32_t>;
 using Kinds = Surrounded<std::uint8_t>;
 
-/// The corners of even sum of a unit cube, and those of odd sum: positively oriented.
+/// The corners of a unit cube with even coordinate sum, and those with odd sum, positively oriented.
 constexpr std::array<std::array<std::uint8_t, 4>, 2> tetrahedron_corners = {{{0, 5, 3, 6}, {1, 2, 4, 7}}};
 
 /// The position of each corner in its tetrahedron.
@@ -51,7 +51,7 @@ class CellMaker {
   }
 
  private:
-  /// From the last cell on, so that most vertices change once. Several blocks have cells of the same vertex.
+  /// From the last cell backward, so that most vertices change once. Several blocks have cells of the same vertex.
   void note_last_cells(const SiteBlock& block) {
     for (std::uint32_t cell = block.first_cell + block.cell_count; cell-- > block.first_cell;)
       for (const std::uint32_t v : cells_[cell].vertices) {
@@ -64,7 +64,7 @@ class CellMaker {
       }
   }
 
-  /// Joins face f of a cell to the face of another core cell with this code; `none`: there is none.
+  /// Joins face f of a cell to the face of another core cell with this code, or to nothing if it is `none`.
   void join(std::uint32_t cell, std::uint32_t f, std::uint32_t code) {
     if (code == none) {
       border_.push_back(face_code(first_ + cell, f));
@@ -77,11 +77,11 @@ class CellMaker {
     return base == none ? none : face_code(base + cell, f);
   }
 
-  // ---- Face-centered: tetrahedra and octahedra, which meet each other only
+  // ---- Face-centered: tetrahedra and octahedra; each meets only the other kind
 
-  /// An octahedron is split around the diagonal d into the cells q = 0 .. 3: bit 0, is it on the upper side of the next
-  /// axis? bit 1, and of the one after that? A cell has the lower end of the diagonal, its upper end, and the ends of
-  /// those two axes, in this order if both are on the same side, otherwise in the other one.
+  /// An octahedron is split around the diagonal d into the cells q = 0 .. 3. Bit 0: is the cell on the upper side of
+  /// the next axis? Bit 1: and of the axis after that? A cell has the lower end of the diagonal, its upper end, and the
+  /// ends of those two axes, in this order if both are on the same side, otherwise in the opposite order.
   void make_octahedron(int at, std::uint32_t base, unsigned d) {
     const int axis[] = {stride[d], stride[(d + 1) % 3], stride[(d + 2) % 3]};
     for (unsigned q = 0; q < 4; ++q) {
@@ -95,7 +95,7 @@ class CellMaker {
       join(base + q, place1, face_code(base + (q ^ 1), place_of_next(q ^ 1)));
       join(base + q, place2, face_code(base + (q ^ 2), 5 - place_of_next(q ^ 2)));
       for (unsigned f = 0; f < 2; ++f) {
-        // Opposite to the lower end is the face on the upper side.
+        // The face opposite the lower end is on the upper side.
         const unsigned corner = (1 - f) << d | (q & 1) << (d + 1) % 3 | (q >> 1) << (d + 2) % 3;
         join(base + q, f, code_in(cube_[at + corner_offset(corner) - corner_offset(7)], 0, place_of_corner[corner]));
       }
@@ -104,7 +104,7 @@ class CellMaker {
   /// The vertex on the axis next to the diagonal.
   static unsigned place_of_next(unsigned q) { return q == 0 || q == 3 ? 2 : 3; }
 
-  /// The face opposite to a corner is that of the octahedron around the corner across.
+  /// The face opposite a corner belongs to the octahedron around the corner across from it.
   void make_tetrahedron(int at, std::uint32_t number, unsigned odd) {
     for (std::uint32_t f = 0; f < 4; ++f) {
       const unsigned corner = tetrahedron_corners[odd][f];
@@ -117,9 +117,9 @@ class CellMaker {
 
   // ---- Body-centered
 
-  /// The cells r = 0 .. 3 around a face are at its sides, counterclockwise around the axis k: those on the upper side
-  /// of the next axis, of the one after that, then the lower sides. A cell has the lower end of the axis, the upper end
-  /// and the ends of its side.
+  /// The cells r = 0 .. 3 around a face are at its sides, counterclockwise around the axis k: at the upper side of the
+  /// next axis, at that of the axis after it, then at the lower sides. A cell has the lower end of the axis, the upper
+  /// end and the ends of its side.
   void make_tetrahedra_at_face(int at, std::uint32_t base, int k) {
     const int up = stride[k];
     for (unsigned r = 0; r < 4; ++r) {
@@ -128,12 +128,12 @@ class CellMaker {
                        point_[at + side(k, r) + side(k, (r + 1) % 4)]};
       join(base + r, 2, face_code(base + (r + 1) % 4, 3));
       join(base + r, 3, face_code(base + (r + 3) % 4, 2));
-      // Around the same edge of the cube with the center at the end of the axis: the side's axis is that of the other
-      // face, and the edge is on the side of this one.
+      // The neighbor is at the same edge, in the cube whose center is the end of the axis. There, the other face is on
+      // this side's axis, and the edge is on the side of this face.
       const int other_axis = (k + 1 + static_cast<int>(r & 1)) % 3;
       const bool is_upper = r < 2;
       for (unsigned f = 0; f < 2; ++f) {
-        const bool from_upper_end = f == 0;  // the face opposite to the lower end
+        const bool from_upper_end = f == 0;  // the face opposite the lower end
         const int other = at + side(k, r) + (from_upper_end ? up : -up);
         const unsigned other_side = ((k - other_axis + 3) % 3 == 1 ? 0u : 1u) + (from_upper_end ? 2u : 0u);
         join(base + r, f, code_in(point_[other], other_side, is_upper ? 1 : 0));
@@ -160,7 +160,7 @@ class CellMaker {
   std::uint32_t code_in_next_cube(int at, const std::array<std::uint8_t, 4>& cell, std::uint32_t f) const {
     const auto corners = delaunay::corners_of_face({cell[0], cell[1], cell[2], cell[3]}, f);
     const unsigned all = corners[0] & corners[1] & corners[2], any = corners[0] | corners[1] | corners[2];
-    // All on the upper side of one axis, or all on the lower one.
+    // All on the upper side of one axis, or all on the lower side.
     const unsigned axis = all != 0 ? all : 7 & ~any;
     const int next = all != 0 ? at + corner_offset(axis) : at - corner_offset(axis);
     if (cube_[next] == none) return none;

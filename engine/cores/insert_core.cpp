@@ -55,7 +55,7 @@ class Joiner {
   }
   bool is_on_border(std::uint32_t v) const { return v != delaunay::ghost_vertex && on_border_[v] != 0; }
 
-  /// Joins the faces of a cell that are on the border. If the cell is within it, notes that.
+  /// Joins the faces of a cell that are on the border, and adds the cell to `inside` if it is within the border.
   /// \return  how many faces were joined
   std::size_t find_border(std::uint32_t c, std::vector<std::uint32_t>& inside) {
     const auto& v = d_.cells[c].vertices;
@@ -95,7 +95,7 @@ class Joiner {
     }
   }
 
-  /// Several threads may reach the same neighbor; one of them gets it.
+  /// Several threads may reach the same neighbor; only one of them gets it.
   void remove_neighbors(std::uint32_t c, std::vector<std::uint32_t>& found) {
     const std::uint8_t walls = std::atomic_ref(walls_[c]).load(std::memory_order_relaxed);
     for (std::uint32_t f = 0; f < 4; ++f) {
@@ -108,14 +108,14 @@ class Joiner {
   Delaunay& d_;
   const std::uint32_t outer_cells_;
   const std::vector<std::uint32_t>& border_;  ///< codes of faces
-  std::vector<std::uint8_t> walls_;           ///< by cell: faces on the border; must it be removed?
+  std::vector<std::uint8_t> walls_;           ///< by cell: which faces are on the border; must it be removed?
   std::vector<std::uint8_t> on_border_;       ///< by vertex
   FaceMap faces_;                             ///< of the border
   const SetBits set_bits_;
 };
 
 /// Puts the core into the tetrahedralization of the other vertices. A flood fill from the core's border removes the old
-/// cells within the core; the cells outside become neighbors of those of the core.
+/// cells within the core; the cells outside become neighbors of the core's cells.
 ///
 /// \param d  the Delaunay tetrahedralization of at least all vertices that are not deep; its list of vertices has all
 void insert_core(const LatticeCore& core, Delaunay& d) {
@@ -128,11 +128,11 @@ void insert_core(const LatticeCore& core, Delaunay& d) {
   note_bytes(bytes_of(d.vertices, d.cell_at, d.cells, d.free_cells, core.sites.blocks, border));
 }
 
-/// Among this many vertices one may be inserted although it is deep.
+/// One of this many vertices may be inserted although it is deep.
 constexpr std::uint32_t extra_vertices = 1024;
 
-/// The vertices to insert, in order. The cells between the others are as large as the core, and belong to the parts of
-/// space of several threads. Some of the first vertices, which are everywhere, keep them small.
+/// The vertices to insert, in order. Without deep vertices, some cells would be as large as the core, and reach into
+/// the parts of space of several threads. A few of the first vertices, which are everywhere, keep cells small.
 std::vector<std::uint32_t> vertices_to_insert(const LatticeCore& core, std::uint32_t first) {
   const std::size_t count = core.is_deep.size() - first, extra = thread_count() == 1 ? 0 : count / extra_vertices;
   return parallel_collect<std::uint32_t>(count, 1 << 14,

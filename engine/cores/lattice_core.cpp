@@ -119,7 +119,7 @@ class CoreFinder {
   bool is_odd(const Place& p) const { return (p[0] & 1) != 0; }
   bool has_faces_beside(const Place& p) const { return kind_ == Lattice::fcc || is_odd(p); }
 
-  /// The axis around which the octahedron at a place is split.
+  /// The axis that the octahedron at a place is split around.
   int diagonal_at(int at) const {
     std::array<std::uint32_t, 6> ends{};
     for (std::size_t k = 0; k < 3; ++k)
@@ -158,8 +158,8 @@ void move_numbers(SiteBlock& block, std::uint32_t by) {
   }
 }
 
-/// Numbers the cells of all core shapes with a deep vertex: first in each chunk of blocks alone, then after the chunks
-/// before.
+/// Numbers the cells of all core shapes with a deep vertex: first within each chunk of blocks, then with the offset of
+/// the chunks before it.
 /// \return  how many there are
 std::uint32_t number_cells(SiteBlocks& sites, std::vector<std::uint8_t>& is_deep) {
   auto& blocks = sites.blocks;

@@ -33,15 +33,15 @@ struct LatticeCore {
 LatticeCore find_lattice_core(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex,
                               std::span<const Point3> others, std::size_t vertices);
 
-/// Makes the cells of the core and joins them to each other. Each of their vertices gets the last of them that it has.
+/// Makes the cells of the core and joins them to each other. For each of their vertices, notes its last core cell.
 ///
 /// \param d      has room for the cells
-/// \param first  the first one; the cells before it are older
+/// \param first  the first of these cells; cells before it are older
 /// \return       codes of the faces that belong to only one of them
 std::vector<std::uint32_t> make_core_cells(const LatticeCore& core, delaunay::Delaunay& d, std::uint32_t first);
 
-/// Adds the points of a lattice to a tetrahedralization: `delaunay::insert_points`, with the same result, but the cells
-/// deep within the lattice are written down, and only the vertices that are not deep are inserted.
+/// Adds the points of a lattice to a tetrahedralization: like `delaunay::insert_points`, with the same result, but the
+/// cells deep within the lattice are written down, and only vertices that are not deep are inserted.
 ///
 /// \return  the number of cells in the core
 std::size_t insert_points(const lattice::LatticePoints& lattice, delaunay::Delaunay& d, const Progress& progress = {});

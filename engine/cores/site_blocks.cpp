@@ -10,7 +10,7 @@ namespace ccdt::cores {
 namespace {
 
 /// A vertex at x, in steps, is in no sphere of a shape whose place is below floor(x) - reach_below or above floor(x) +
-/// reach_above. The spheres that reach farthest are those of the body-centered lattice: their radius is sqrt(5)/2,
+/// reach_above. The spheres that reach farthest are those of the body-centered lattice: their radius is sqrt(5)/2, and
 /// their centers are 1/2 off the place.
 constexpr std::uint32_t reach_below = 1, reach_above = 2;
 
@@ -25,8 +25,8 @@ Place block_at(const Place& p) {
 }
 
 /// Is x in a sphere of the shape around a place? The octahedron of the face-centered lattice has radius 1. The four
-/// tetrahedra around a face of the body-centered lattice have their centers 1/2 off the place along the axes of the
-/// face, and the radius sqrt(5)/2.
+/// tetrahedra around a face of the body-centered lattice have centers 1/2 off the place along the axes of the face, and
+/// radius sqrt(5)/2.
 bool is_in_sphere_at(Lattice kind, const Place& p, const std::array<double, 3>& x) {
   double squared = 0, along = 0;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -55,7 +55,7 @@ SiteMap::SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uin
   make_levels();
   find_runs();
   make_blocks();
-  // Each place belongs to at most one point, so no two threads write to the same.
+  // Each place belongs to at most one point, so no two threads write to the same place.
   parallel_for(runs_.size(), run_grain, [&](std::size_t r) {
     const Run& run = runs_[r];
     for (std::uint32_t i = run.begin; i < run.end; ++i) put(run.block, place(run.level, coordinates(i)), vertex[i]);
@@ -69,7 +69,7 @@ SiteMap::SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uin
   });
 }
 
-/// The levels with points. A point of a level may be a site of only the next finer one.
+/// The levels with points. A point of a level may be a site of the next finer level only.
 void SiteMap::make_levels() {
   index_.assign(lattice_.depth + 1, none);
   for (const std::uint8_t level : lattice_.levels)
@@ -83,7 +83,7 @@ void SiteMap::make_levels() {
   }
 }
 
-/// Points that follow one another are near each other, so most runs hold all points of a block.
+/// Consecutive points are near each other, so most runs hold all points of a block.
 void SiteMap::find_runs() {
   runs_ = parallel_collect<Run>(lattice_.points.size(), point_grain,
                                 [&](std::size_t begin, std::size_t end, std::vector<Run>& runs) {
@@ -120,7 +120,7 @@ void SiteMap::make_blocks() {
 
 Place SiteMap::coordinates(std::uint32_t point) const {
   const Point3 p = (1 / lattice_.unit) * (lattice_.points[point] - lattice_.origin);
-  constexpr double slack = 0.25;  // they are whole but for rounding
+  constexpr double slack = 0.25;  // they are whole up to rounding
   const auto whole = [](double x) { return static_cast<std::uint32_t>(x + slack); };
   return {whole(p.x), whole(p.y), whole(p.z)};
 }
@@ -135,7 +135,7 @@ bool SiteMap::is_on(std::uint32_t level, const Place& c) const {
   return ((c[0] | c[1] | c[2]) & rest) == 0 && is_site(all_.kind, place(level, c));
 }
 
-/// A site of a fine leaf may be on the lower side of a coarser one.
+/// A site of a fine leaf may be on the lower side of a coarser leaf.
 std::uint32_t SiteMap::level_of(std::uint32_t point, const Place& c) const {
   std::uint32_t level = index_[lattice_.levels[point]];
   while (!is_on(level, c)) ++level;
@@ -170,7 +170,7 @@ void SiteMap::find_neighbors(std::uint32_t b) {
   for (std::uint32_t coarse = 0; coarse < block.level; ++coarse) find_coarser(b, coarse);
 }
 
-/// Notes that a block and those of a coarser level are near each other.
+/// Notes that a block and blocks of a coarser level are near each other.
 void SiteMap::find_coarser(std::uint32_t b, std::uint32_t coarse) {
   SiteBlock& block = all_.blocks[b];
   const std::int64_t step = std::int64_t{1} << all_.levels[block.level].log_step;

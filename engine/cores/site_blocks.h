@@ -29,7 +29,7 @@ enum ShapeFlag : std::uint8_t {
 /// A cube of 8 x 8 x 8 places of one level, x first. A place is a point with whole coordinates in *steps*: half the
 /// side of a lattice cell of the level, or the whole side for the simple cubic lattice.
 ///
-/// Threads work on different blocks. No step writes to an array that it also reads in the blocks around.
+/// Threads work on different blocks. No step writes to an array that it also reads in the surrounding blocks.
 struct SiteBlock {
   static constexpr int side = 8;
   static constexpr std::size_t size = 512;
@@ -38,8 +38,8 @@ struct SiteBlock {
   std::uint32_t level;                    ///< index of its `SiteLevel`
   bool has_core;                          ///< is any of its shapes core?
   std::uint32_t first_cell, cell_count;   ///< the cells of its shapes are first_cell .. first_cell + cell_count
-  std::uint64_t near_levels;              ///< bits: levels with blocks near which vertices of this one may be
-  std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `none`: there is none
+  std::uint64_t near_levels;              ///< bits: levels that have a block near possible vertices of this one
+  std::array<std::uint32_t, 27> around;   ///< the blocks around it, x first, itself included; `none` if missing
   std::array<std::uint32_t, size> point;  ///< at a site: its vertex; elsewhere: the first cell of a shape; or `none`
   std::array<std::uint32_t, size> cube;   ///< the first cell of the shape in the cube, or `none`
   std::array<std::uint8_t, size> flags;   ///< `SiteFlag`
@@ -72,7 +72,7 @@ constexpr bool is_site(Lattice kind, const Place& p) {
   }
 }
 
-/// The sites of all levels near which there are vertices, in blocks.
+/// The sites of all levels near vertices, in blocks.
 struct SiteBlocks {
   Lattice kind = Lattice::fcc;
   std::vector<SiteLevel> levels;  ///< coarse ones first
@@ -95,12 +95,12 @@ class SiteMap {
   SiteMap(const lattice::LatticePoints& lattice, std::span<const std::uint32_t> vertex);
 
   SiteBlocks& blocks() { return all_; }
-  /// Finds core shapes with lattice points of other levels, or any of the other vertices, in their spheres: these are
-  /// no longer core.
+  /// Finds core shapes whose spheres contain lattice points of other levels, or any of the other vertices. These shapes
+  /// are no longer core.
   void discard_shapes_with(std::span<const Point3> others);
 
  private:
-  /// Points in a row that are in one block.
+  /// Consecutive points that are in one block.
   struct Run {
     std::uint32_t begin, end;  ///< of the points
     std::uint32_t level;       ///< index of their `SiteLevel`
@@ -126,11 +126,11 @@ class SiteMap {
 
   const lattice::LatticePoints& lattice_;
   SiteBlocks all_;
-  std::vector<std::uint32_t> index_;  ///< of a level, by that of the octree
+  std::vector<std::uint32_t> index_;  ///< index of a level, by level of the octree
   std::vector<Run> runs_;
 };
 
-/// The side of a block with the places around it, and how far apart neighbors are there along x, y and z.
+/// The side of a block with its surrounding places, and how far apart neighbors are in it along x, y and z.
 inline constexpr int surrounded_side = SiteBlock::side + 2;
 inline constexpr std::array<int, 3> stride = {1, surrounded_side, surrounded_side* surrounded_side};
 

@@ -28,14 +28,14 @@ constexpr int orientation(unsigned a, unsigned b, unsigned c, unsigned d) {
   return (det > 0) - (det < 0);
 }
 
-/// Is e outside the perturbed sphere of a positively oriented cell? As `insphere_perturbed` decides for points on one
-/// sphere.
+/// Is e outside the perturbed sphere of a positively oriented cell? The same answer as `insphere_perturbed` for points
+/// on one sphere.
 bool is_outside(const CellCorners& cell, std::uint8_t e, const std::array<std::uint8_t, 8>& place) {
   std::array<std::uint8_t, 5> by_rank = {0, 1, 2, 3, 4};
   const auto place_of = [&](std::uint8_t i) { return place[i < 4 ? cell[i] : e]; };
   std::ranges::sort(by_rank, [&](std::uint8_t i, std::uint8_t j) { return place_of(i) > place_of(j); });
   for (const std::uint8_t i : by_rank) {
-    if (i == 4) return true;  // its height acts with minus the cell's volume
+    if (i == 4) return true;  // the factor of its height is minus the cell's volume
     CellCorners with = cell;
     with[i] = e;
     if (const int sign = orientation(with[0], with[1], with[2], with[3]); sign != 0) return sign < 0;
@@ -49,7 +49,7 @@ unsigned face_mask(const CellCorners& cell, std::uint32_t f) {
   return mask;
 }
 
-/// \param place  of each corner in the order of the ranks
+/// \param place  the place of each corner in the order of ranks
 CubeSplit split_cube(const std::array<std::uint8_t, 8>& place) {
   CubeSplit split{};  // unused cells are zero, so that equal splits compare equal
   for (std::uint8_t a = 0; a < 8; ++a)
@@ -76,15 +76,15 @@ CubeSplit split_cube(const std::array<std::uint8_t, 8>& place) {
   return split;
 }
 
-/// The kinds by the order of the ranks, for all threads; each is computed when first needed.
+/// The kinds by the order of ranks, shared by all threads; each is computed when first needed.
 class KindTable {
  public:
   KindTable() : kind_of_order_(40320) {
     for (auto& kind : kind_of_order_) kind = unknown;
   }
 
-  /// \param order  the number of the order of the ranks
-  /// \param place  of each corner in that order
+  /// \param order  the number of the order of ranks
+  /// \param place  the place of each corner in that order
   std::uint8_t kind(std::size_t order, const std::array<std::uint8_t, 8>& place) {
     std::atomic<std::uint8_t>& its = kind_of_order_[order];
     std::uint8_t kind = its.load(std::memory_order_acquire);

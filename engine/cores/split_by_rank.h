@@ -26,7 +26,7 @@ constexpr int even_axis(const Place& p) {
 }
 
 /// Six vertices on one sphere at the ends of three diagonals are split around one diagonal. With the raised heights, it
-/// is the diagonal that is lowest in the middle: the one whose greater rank is the least.
+/// is the diagonal that is lowest in the middle: the one whose greater rank is least.
 ///
 /// \param v  ranks, those of one diagonal next to each other
 constexpr int diagonal_of_octahedron(const std::uint32_t* v) {
@@ -41,7 +41,7 @@ constexpr int diagonal_of_octahedron(const std::uint32_t* v) {
 struct CubeSplit {
   std::uint8_t count = 0;                            ///< 5 or 6
   std::array<std::array<std::uint8_t, 4>, 6> cells;  ///< positively oriented
-  /// By cell and face: the code 4 * cell + face of the same face in the cell on its other side; `outer_face`: on the
+  /// By cell and face: the code 4 * cell + face of the same face in the cell on its other side; `outer_face` on the
   /// cube's surface.
   std::array<std::uint8_t, 24> neighbors;
   std::array<std::uint8_t, 256> outer;  ///< the code of a face on the surface, by its corners

@@ -54,10 +54,10 @@ void make_first_cells(Delaunay& d) {
     d.cells[f + 1].neighbors[3] = face_code(0, f);
     d.cells[0].neighbors[f] = face_code(f + 1, 3);
   }
-  // Two ghosts meet at the face that lacks the opposite vertex of each.
+  // Two ghosts share the face that has neither of their opposite vertices.
   for (std::uint32_t i = 1; i < 5; ++i) {
     for (std::uint32_t f = 0; f < 3; ++f) {
-      const std::uint32_t other = 1 + d.cells[i].vertices[f];  // the ghost over the face opposite to this vertex
+      const std::uint32_t other = 1 + d.cells[i].vertices[f];  // the ghost over the face opposite this vertex
       const auto& v = d.cells[other].vertices;
       const auto g = static_cast<std::uint32_t>(std::find(v.begin(), v.end(), i - 1) - v.begin());
       d.cells[i].neighbors[f] = face_code(other, g);
@@ -133,7 +133,7 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
   return cells_;
 }
 
-// Walks within the star of a. Like any walk toward a point in a Delaunay tetrahedralization, it ends.
+// A walk within the star of a. Like any walk toward a point in a Delaunay tetrahedralization, it terminates.
 std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, std::uint32_t b) {
   std::uint32_t here = d.cell_at[a];
   // The walk never leaves the hull, because p is inside.
@@ -161,7 +161,7 @@ std::vector<Point3> points_of(const Delaunay& d) {
   return points;
 }
 
-// If ab is an edge, it is one of the cell toward b.
+// If ab is an edge, the cell toward b has it.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b) {
   const std::uint32_t cell = cell_toward(d, a, d.point(b), b);
   return place_of(d.cells[cell], b) < 4 ? cell : no_neighbor;

@@ -21,10 +21,10 @@ struct alignas(32) DelaunayVertex {
   std::uint32_t rank = 0;
 };
 
-/// All threads set them up, so one does not clear them first.
+/// All threads set up vertices, so no thread clears them first.
 using DelaunayVertices = RawVector<DelaunayVertex>;
 
-/// The coordinates, and in the fourth lane anything.
+/// The coordinates; the fourth lane may hold anything.
 CCDT_ALWAYS_INLINE void load(const DelaunayVertex& v, Lanes& result) {
   static_assert(sizeof v == sizeof result);
   std::memcpy(&result, &v, sizeof result);
@@ -39,7 +39,7 @@ inline Box bounding_box(std::span<const DelaunayVertex> vertices) {
 
 /// A tetrahedron, or a *ghost*: a face of the convex hull joined to the vertex at infinity.
 ///
-/// Vertices are positively oriented: vertex 3 is above the triangle 0 1 2. Face i is opposite to vertex i. A ghost has
+/// Vertices are positively oriented: vertex 3 is above the triangle 0 1 2. Face i is opposite vertex i. A ghost has
 /// `ghost_vertex` as vertex 3; the outside of the hull is above its triangle 0 1 2. A neighbor is a face code, 4 * cell
 /// + face: the same face, numbered in the cell on its other side.
 struct Cell {
@@ -60,7 +60,7 @@ constexpr std::uint32_t face_of(std::uint32_t code) {
   return code & 3;
 }
 
-/// The corners of face i, such that the vertex i is above them.
+/// The corners of face i, in an order with vertex i above them.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> face_corners = {
     {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
 
@@ -70,7 +70,7 @@ constexpr std::array<std::uint32_t, 3> corners_of_face(const std::array<std::uin
   return {v[corner[0]], v[corner[1]], v[corner[2]]};
 }
 
-/// The ends of each edge of a cell and its other two corners, such that all four are positively oriented.
+/// The ends of each edge of a cell and its other two corners, in positive orientation.
 inline constexpr std::array<std::array<std::uint8_t, 4>, 6> edge_corners = {
     {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}}};
 
@@ -84,7 +84,7 @@ inline void join_faces(LargeVector<Cell>& cells, std::uint32_t a, std::uint32_t 
 /// structure: cells and vertices are indices into arrays. Cells whose place can be reused are dead.
 struct Delaunay {
   DelaunayVertices vertices;         ///< by id
-  RawVector<std::uint32_t> cell_at;  ///< by vertex: a cell with it; `none`: it waits to be inserted
+  RawVector<std::uint32_t> cell_at;  ///< by vertex: a cell with it; `none` if it waits to be inserted
   LargeVector<Cell> cells;
   std::vector<std::uint32_t> free_cells;  ///< places of dead cells
 
@@ -100,8 +100,7 @@ struct Delaunay {
   void remove_last_vertex() { vertices.pop_back(), cell_at.pop_back(); }
   /// The code of the same face in the cell on its other side.
   std::uint32_t across(std::uint32_t code) const { return cells[cell_of(code)].neighbors[face_of(code)]; }
-  /// Asks memory for the cell of one of the codes that follow the i-th, before it is needed. Codes may be
-  /// `no_neighbor`.
+  /// Prefetches the cell of a code some places after the i-th, before it is needed. Codes may be `no_neighbor`.
   void prefetch_after(std::size_t i, std::span<const std::uint32_t> codes) const {
     constexpr std::size_t ahead = 16;
     if (i + ahead < codes.size()) __builtin_prefetch(cells.data() + cell_of(codes[i + ahead]));
@@ -111,39 +110,39 @@ struct Delaunay {
   bool is_finite(std::uint32_t cell) const { return !is_dead(cell) && !is_ghost(cell); }
 };
 
-/// Tetrahedralizes points, which get their indices as ids. Incremental insertion (Bowyer, Watson) in the order of a
+/// Tetrahedralizes points, whose ids are their indices, by incremental insertion (Bowyer, Watson) in the order of a
 /// Hilbert curve.
 ///
-/// \param points  grid units, pairwise different
+/// \param points  grid units, distinct
 /// \throw MeshError  fewer than four points, or all in one plane; carries no place
 Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress = {});
 
-/// The ranks, by id, that `build_delaunay` gives: the order of its insertions.
+/// The ranks, by id, that `build_delaunay` assigns: the order of its insertions.
 ///
-/// \throw MeshError  as build_delaunay
+/// \throw MeshError  as in build_delaunay
 std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points);
 
 /// Throws what `build_delaunay` throws for points without a body.
 [[noreturn]] void refuse_flat_points();
 
-/// Tetrahedralizes points face by face, as the paper does (sections 4 and 5: the uniform grid construction of Fang and
-/// Piegl 1993, in space): starting with a face of the hull, the tetrahedron on the open side of each face is found by a
-/// search in the uniform grid around it. The cells are the same as those of insertion in the order of the ranks.
+/// Tetrahedralizes points face by face, as in the paper (sections 4 and 5: the uniform grid construction of Fang and
+/// Piegl 1993, in space). Starting with a face of the hull, a search in the uniform grid finds the tetrahedron on the
+/// open side of each face. The cells are the same as with insertion in the order of ranks.
 ///
 /// The time is about linear for points of uniform density in a body. It is not if the points are graded or lie only on
-/// surfaces, because the number of vertices in a grid cell is then unbounded: a region that is k times denser than the
-/// mean costs about k times as much per vertex; n points on a sphere cost about n^2. On slanted flat sides, where
-/// vertices are off the plane by rounding, the spheres of slivers are nearly half-spaces, and their border is searched:
-/// about n^1.2 in all.
+/// surfaces, because the number of vertices in a grid cell is then unbounded: a region k times as dense as the mean
+/// takes about k times as long per vertex; n points on a sphere take about n^2. On slanted flat sides, where rounding
+/// moves vertices off the plane, the spheres of slivers are nearly half-spaces, and their border is searched: about
+/// n^1.2 in all.
 ///
-/// \param vertices    by id, with point and rank; points pairwise different, in grid units, and ranks too
-/// \param grid_scale  factor of the paper's size of the grid's cells
+/// \param vertices    by id, with distinct points, in grid units, and distinct ranks
+/// \param grid_scale  factor of the paper's cell size
 /// \return  without dead cells
-/// \throw MeshError  as build_delaunay
+/// \throw MeshError  as in build_delaunay
 Delaunay wrap_delaunay(DelaunayVertices vertices, double grid_scale = 1, const Progress& progress = {});
 
 /// Adds points as vertices, in the order of a Hilbert curve. Their ids, and their ranks too, follow the existing ones.
-/// They have no cells yet: those are made by `insert_vertices`, or all anew by `wrap_delaunay`.
+/// They have no cells yet: `insert_vertices` adds cells for them, or `wrap_delaunay` makes all cells anew.
 ///
 /// \param points        grid units
 /// \param later_rounds  as for `hilbert_order`
@@ -153,7 +152,7 @@ std::vector<std::uint32_t> append_vertices(Delaunay& d, std::span<const Point3> 
 
 /// Adds points to the tetrahedralization, as `append_vertices` and `insert_vertices` do.
 ///
-/// \param points  grid units, pairwise different and different from the vertices
+/// \param points  grid units, distinct, and none at a vertex
 void insert_points(Delaunay& d, std::span<const Point3> points, std::span<const std::uint8_t> later_rounds = {},
                    const Progress& progress = {});
 
@@ -166,8 +165,8 @@ inline std::uint32_t place_of(const Cell& cell, std::uint32_t v) {
 /// Walks around the edge ab, from one of its cells to the next.
 ///
 /// \param first  the cell to begin with
-/// \param visit  visit(cell, exit, staying): the walk leaves the cell through the face opposite to the vertex at the
-///               place `exit`, and the vertex at `staying` is the other one that is not on the edge; false ends it
+/// \param visit  visit(cell, exit, staying): the walk leaves the cell through the face opposite the vertex at the place
+///               `exit`; the vertex at `staying` is the other one not on the edge. False ends the walk
 template <class Visit>
 void walk_around_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t first, const Visit& visit) {
   std::uint32_t here = first, exit = 0;
@@ -185,12 +184,12 @@ void walk_around_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b, std::
 /// The points of the vertices.
 std::vector<Point3> points_of(const Delaunay& d);
 
-/// A cell at the vertex a in which the straight line from a to p begins; p is in the convex hull.
+/// A cell at the vertex a that contains the beginning of the straight line from a to p; p is in the convex hull.
 ///
-/// \param b  the vertex at p, if there is one: any cell at a that has it will do
+/// \param b  the vertex at p, if there is one: then any cell at a that has it will do
 std::uint32_t cell_toward(const Delaunay& d, std::uint32_t a, const Point3& p, std::uint32_t b = ghost_vertex);
 
-/// A cell that has the edge ab; `no_neighbor` if that is no edge of the tetrahedralization.
+/// A cell that has the edge ab; `no_neighbor` if this is not an edge of the tetrahedralization.
 std::uint32_t find_edge(const Delaunay& d, std::uint32_t a, std::uint32_t b);
 
 /// Is ab an edge of the tetrahedralization?
@@ -207,7 +206,7 @@ inline std::uint32_t find_face(const Delaunay& d, std::uint32_t a, std::uint32_t
   return find_face(d, a, b, c, find_edge(d, a, b));
 }
 
-/// Visits the cells around vertices. It owns the marks for this, so create it once and use it often.
+/// Visits the cells around vertices. It owns the marks for this, so create it once and reuse it.
 class CellStar {
  public:
   explicit CellStar(const Delaunay& delaunay) : d_(delaunay) {}

@@ -189,7 +189,7 @@ class ApexSearch {
     if (pencil_.apex() != apex) cap_ = pencil_.cap();
   }
 
-  /// Reduces a row of cells to the part within the ball and above the face. \return is anything left?
+  /// Shortens a row of cells to the part within the ball and above the face. \return is anything left?
   bool shorten(int y, int z, int& from, int& to) const {
     const double row_y = g_.grid.low.y + (y + 0.5) * cell_size_, row_z = g_.grid.low.z + (z + 0.5) * cell_size_;
     double low = -infinity, high = infinity;
@@ -243,8 +243,8 @@ class ApexSearch {
     }
   }
 
-  /// Is all of the block up to a height above the face outside the sphere? With c the center of the circle of the face
-  /// and r its radius, e is inside when |e - c|^2 < r^2 + 2 lift * (height of e): in a narrow cap even if lift is
+  /// Is the whole block, up to a height above the face, outside the sphere? With c the center of the circle of the face
+  /// and r its radius, e is inside when |e - c|^2 < r^2 + 2 lift * (height of e): that is a narrow cap even if lift is
   /// large.
   bool is_outside(const GridBlock& block, double top, double farthest) const {
     const SpherePencil::Circle& circle = pencil_.circle();

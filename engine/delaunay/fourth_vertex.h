@@ -70,14 +70,14 @@ class BlockTops {
 
 /// The extent of a search.
 enum class Reach {
-  near,       ///< gives up if the face may be on the hull, or the sphere is so huge that it is nearly a half-space
+  near,       ///< gives up if the face may be on the hull, or the sphere is so large that it is nearly a half-space
   everywhere  ///< searches everything above the face
 };
 
-/// Finds the vertex that makes a Delaunay tetrahedron of a Delaunay face (paper, sections 4 and 5; Fang and Piegl 1993
-/// for the plane): a spiral search around the face in growing boxes of cells finds a candidate; it is replaced by any
-/// vertex inside the sphere through it and the face, until all cells that the sphere meets above the face have been
-/// visited. If the sphere is large, whole blocks of cells are skipped.
+/// Finds the vertex that makes a Delaunay tetrahedron with a Delaunay face (paper, sections 4 and 5; Fang and Piegl
+/// 1993 for the plane): a spiral search around the face in growing boxes of cells finds a candidate; any vertex inside
+/// the sphere through the candidate and the face replaces it, until all cells that the sphere meets above the face have
+/// been visited. If the sphere is large, whole blocks of cells are skipped.
 class FourthVertexSearch {
  public:
   /// \param grid  must outlive the search

@@ -41,7 +41,7 @@ CCDT_WIDE_LANES void hilbert_distances(const Coordinates& coordinates, std::arra
   }
   y ^= x;
   z ^= y;
-  // Gray code: a bit is inverted for each higher one that is set.
+  // Gray code: a bit is inverted once for each higher bit that is set.
   NumberLanes t = z >> 1;
   for (int shift = 1; shift < bits_per_axis; shift *= 2) t ^= t >> shift;
   x ^= t, y ^= t, z ^= t;
@@ -49,7 +49,7 @@ CCDT_WIDE_LANES void hilbert_distances(const Coordinates& coordinates, std::arra
     distances[lane] = spread_bits(x[lane]) << 2 | spread_bits(y[lane]) << 1 | spread_bits(z[lane]);
 }
 
-/// Divides items along a curve into rounds: each has those between the items of the rounds before, three between two.
+/// Divides items along a curve into rounds: each takes three items between any two of the rounds before.
 std::vector<std::uint32_t> in_rounds(const std::vector<std::uint32_t>& along_curve) {
   constexpr std::size_t growth = 4, most_in_first = 1000;
   std::size_t step = 1;

@@ -10,25 +10,25 @@
 namespace ccdt::delaunay {
 namespace {
 
-/// In smaller parts, too many vertices are near the border.
+/// In parts with fewer vertices, too many are near the border.
 constexpr std::size_t least_part = 250;
-/// Another pass pays off if more than one vertex waits for every this many cells.
+/// Another pass pays off if there is more than one waiting vertex per this many cells.
 constexpr std::size_t cells_per_waiting_vertex = 2000;
-/// The normals of the planes of each pass. The vertices that wait are near the planes of the pass before; only few of
-/// them are near planes in very different directions.
+/// The normals of the planes of each pass. The vertices that wait are near the planes of the previous pass; only a few
+/// of them are near planes in very different directions.
 constexpr std::array<Basis, 3> bases = {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}},
                                          {{{2, 2, 1}, {-2, 1, 2}, {1, -2, 2}}},
                                          {{{6, 2, 3}, {-3, 6, 2}, {-2, -3, 6}}}}};
 constexpr std::size_t sample_size = 4096;
-/// More than this many cells per new vertex are rare; then the rest of a part waits.
-constexpr std::size_t most_cells_of_vertex = 8;
-/// A part takes a chunk of places at a time: a sixteenth of what it may need, but at most a large page. In small
-/// chunks, several threads would use a new page at the same time, and the system would clear one for each of them.
-constexpr std::size_t chunks_of_part = 16, least_chunk = 512, most_chunk = 65536;
+/// A part rarely needs more than this many cells per new vertex; if it does, the rest of the part waits.
+constexpr std::size_t most_cells_per_vertex = 8;
+/// A part takes a chunk of places at a time: a sixteenth of what it may need, but at most a large page. If chunks were
+/// small, several threads would use a new page at the same time, and the system would clear one for each of them.
+constexpr std::size_t chunks_per_part = 16, least_chunk = 512, most_chunk = 65536;
 constexpr std::size_t report_every = 4096;
 
 std::size_t chunk_of(std::size_t vertices, std::size_t parts) {
-  return std::clamp(most_cells_of_vertex * vertices / (parts * chunks_of_part), least_chunk, most_chunk);
+  return std::clamp(most_cells_per_vertex * vertices / (parts * chunks_per_part), least_chunk, most_chunk);
 }
 
 }  // namespace
@@ -57,8 +57,8 @@ std::vector<std::uint32_t> PartedInsertion::insert(std::span<const std::uint32_t
 }
 
 std::size_t PartedInsertion::most_cells(std::size_t vertices) {
-  // Those of the vertices that are in, and room for those that wait, which are few.
-  return (most_cells_of_vertex + 1) * vertices + 4 * thread_count() * chunk_of(vertices, thread_count());
+  // The cells of the inserted vertices, and room for those of the few that wait.
+  return (most_cells_per_vertex + 1) * vertices + 4 * thread_count() * chunk_of(vertices, thread_count());
 }
 
 void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t parts, const Basis& basis) {
@@ -68,7 +68,7 @@ void PartedInsertion::cut(std::span<const std::uint32_t> vertices, std::uint32_t
   const SpaceCut space(sample, parts, basis);
   start_ = std::vector<std::atomic<std::uint32_t>>(parts);
   for (auto& start : start_) start = none;
-  // From a shared cell, a walk may not get anywhere.
+  // A walk that starts in a shared cell may get nowhere.
   const auto is_whole = [&](std::uint32_t cell, std::uint32_t part) {
     return std::ranges::all_of(d_.cells[cell].vertices, [&](std::uint32_t v) {
       return v == ghost_vertex || space.part_of(d_.point(v)) == part;
@@ -92,7 +92,7 @@ void PartedInsertion::add_marks() {
 std::vector<std::uint32_t> PartedInsertion::pass(std::span<const std::uint32_t> vertices, std::size_t number,
                                                  SharedProgress& progress) {
   const std::size_t old = d_.cells.size(), parts = start_.size(), chunk = chunk_of(vertices.size(), parts);
-  const std::size_t room = (most_cells_of_vertex * vertices.size() / chunk + 2 * parts) * chunk;
+  const std::size_t room = (most_cells_per_vertex * vertices.size() / chunk + 2 * parts) * chunk;
   d_.cells.resize(old + room);
   add_marks();
   CellPool pool{static_cast<std::uint32_t>(chunk), static_cast<std::uint32_t>(old + room),
@@ -131,8 +131,8 @@ std::vector<std::uint32_t> PartedInsertion::insert_in_order(Insertion& insertion
                                                             SharedProgress& progress) {
   std::uint32_t last = start_[part];
   const Ties ties = number == 0 ? Ties::greatest_rank : Ties::any_rank;
-  // Parts do not take the same time. When half of them are done, the next pass divides what is left of the others. A
-  // part that begins only then, because no thread was free before, is not stopped.
+  // Parts do not all take the same time. When half of them are done, the next pass divides what is left of the others.
+  // A part that begins only then, because no thread was free earlier, is not stopped.
   const auto are_half_done = [&] { return 2 * done_parts_.load(std::memory_order_relaxed) >= start_.size(); };
   const bool may_stop = number + 1 < bases.size() && !are_half_done();
   std::vector<std::uint32_t> waiting;

@@ -30,14 +30,14 @@ class PartedInsertion {
   /// \param d  with a list of all vertices; must outlive this, and so must the marks
   PartedInsertion(Delaunay& d, InsertionMarks& marks);
 
-  /// \param vertices     in the order of their ranks, which are greater than those of all vertices that have cells
-  /// \param waiting      what the call before returned; these vertices are tried again after the others
+  /// \param vertices     in order of rank; all ranks are greater than those of the vertices that have cells
+  /// \param waiting      what the previous call returned; these vertices are tried again after the others
   /// \param done, total  what to report of the whole stage
   /// \return  the vertices that still wait, too few for several threads; in the order of their ranks
   std::vector<std::uint32_t> insert(std::span<const std::uint32_t> vertices, std::vector<std::uint32_t> waiting,
                                     std::size_t done, std::size_t total, const Progress& progress);
 
-  /// How many new cells there should be room for, so that cells need not be moved to larger memory on the way.
+  /// How many new cells there should be room for, so that cells need not be moved to a larger array on the way.
   static std::size_t most_cells(std::size_t vertices);
 
  private:
@@ -56,7 +56,7 @@ class PartedInsertion {
 
   Delaunay& d_;
   std::vector<Part> part_;                         ///< by vertex
-  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell with a vertex of it; `none`: none
+  std::vector<std::atomic<std::uint32_t>> start_;  ///< by part: a cell with one of its vertices, or `none`
   InsertionMarks& marks_;
   std::atomic<std::size_t> done_parts_ = 0;  ///< of this pass
   std::mutex mutex_;                         ///< guards the list of dead cells during a pass

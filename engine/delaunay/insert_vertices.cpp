@@ -13,7 +13,7 @@
 namespace ccdt::delaunay {
 namespace {
 
-/// Inserts vertices one after the other.
+/// Inserts vertices one after another.
 /// \param done, total  what to report of the whole stage
 void insert_in_order(Delaunay& d, InsertionMarks& marks, std::span<const std::uint32_t> vertices, Ties ties,
                      std::size_t done, std::size_t total, const Progress& progress) {
@@ -27,14 +27,14 @@ void insert_in_order(Delaunay& d, InsertionMarks& marks, std::span<const std::ui
   note_bytes(bytes_of(vertices, d.vertices, d.cell_at, d.cells, d.free_cells) + insertion.bytes());
 }
 
-/// About as many as there are, ghosts included. Points of a lattice add 6 cells each, or a little more.
-constexpr double cells_of_vertex = 6.25;
-constexpr std::size_t cells_of_surface_vertex = 9;  ///< if there are vertices only on surfaces
+/// About how many cells there are per vertex, ghosts included. Points of a lattice add 6 cells each, or a few more.
+constexpr double cells_per_vertex = 6.25;
+constexpr std::size_t cells_per_surface_vertex = 9;  ///< if all vertices are on surfaces
 /// With fewer vertices, several threads gain nothing.
 constexpr std::size_t least_for_threads = 5000;
 /// One thread inserts the first vertices, at least this many.
 constexpr std::size_t least_first = 100;
-/// After each round on all threads, there are this many times as many vertices as before.
+/// Each round on all threads multiplies the number of vertices by this.
 constexpr std::size_t growth = 8;
 
 bool are_several_worth_it(std::size_t vertices) {
@@ -54,19 +54,19 @@ void reserve_cells(Delaunay& d, std::size_t capacity) {
 
 std::size_t most_new_cells(std::size_t vertices) {
   if (are_several_worth_it(vertices)) return PartedInsertion::most_cells(vertices);
-  return static_cast<std::size_t>(cells_of_vertex * static_cast<double>(vertices)) + 64;
+  return static_cast<std::size_t>(cells_per_vertex * static_cast<double>(vertices)) + 64;
 }
 
 void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const Progress& progress) {
   reserve_cells(d,
-                std::max(d.cells.size() + most_new_cells(vertices.size()), cells_of_surface_vertex * vertices.size()));
+                std::max(d.cells.size() + most_new_cells(vertices.size()), cells_per_surface_vertex * vertices.size()));
   InsertionMarks marks;
   if (!are_several_worth_it(vertices.size())) {
     insert_in_order(d, marks, vertices, Ties::greatest_rank, 0, vertices.size(), progress);
     return;
   }
-  // About the rounds of `hilbert_order`: each round adds points between those of the round before, everywhere. The
-  // vertices of a surface around them do not count: the cells between these cross the whole inside, so all would wait.
+  // These are about the rounds of `hilbert_order`: each round adds points everywhere between those of the round before.
+  // The surface's vertices do not count: the cells between these cross the whole inside, so all would wait.
   std::size_t first = vertices.size();
   while (first >= growth * least_first) first /= growth;
   insert_in_order(d, marks, vertices.first(first), Ties::greatest_rank, 0, vertices.size(), progress);
@@ -76,7 +76,7 @@ void insert_vertices(Delaunay& d, std::span<const std::uint32_t> vertices, const
     end = 2 * growth * begin < vertices.size() ? growth * begin : vertices.size();
     waiting = parted.insert(vertices.subspan(begin, end - begin), std::move(waiting), begin, vertices.size(), progress);
     if (waiting.size() < (end - begin) / 4) continue;
-    // Without them, the cells of the next round would be too large.
+    // Without them, the cells would be too large in the next round.
     insert_in_order(d, marks, waiting, Ties::any_rank, end - waiting.size(), vertices.size(), progress);
     waiting.clear();
   }

@@ -10,8 +10,8 @@
 namespace ccdt::delaunay {
 namespace {
 
-/// The face of a new cell that is opposite to the k-th vertex of its border face, by where the ghost was among them (3:
-/// nowhere); see the order of vertices in `make_cell`.
+/// The face of a new cell opposite the k-th vertex of its border face, by the ghost's position in the border face (3:
+/// none); see the order of vertices in `make_cell`.
 constexpr std::uint8_t opposite[4][3] = {{3, 1, 0}, {0, 3, 1}, {1, 0, 3}, {0, 1, 2}};
 
 /// The corners after and before the k-th one of a triangle.
@@ -36,17 +36,17 @@ Insertion::Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionP
       table_(table_side * table_side) {}
 
 /// The visibility walk; ends in the cell that holds p, in a ghost whose hull face p is above, or in a shared cell from
-/// where it would get to cells of another part. The first face to try changes from step to step, so that the walk does
-/// not favor a side. Faces in whose plane p may be are tried last.
+/// which it would enter another part. The first face to try changes from step to step, so that the walk does not favor
+/// a side. Faces whose plane may contain p are tried last.
 ///
-/// \tparam in_part  may there be shared cells? A cell that is not shared is of the own part.
+/// \tparam in_part  may there be shared cells? A cell that is not shared is in this part.
 template <bool in_part>
 CCDT_ALWAYS_INLINE std::uint32_t Insertion::walk(std::uint32_t start) {
   Lanes a, b, c, d, p;
   load(d_.vertices[v_], p);
   std::uint32_t here = d_.is_ghost(start) ? cell_of(d_.cells[start].neighbors[3]) : start;
   bool is_shared = in_part && parts_.is_shared(d_.cells[here]);
-  unsigned allowed = 15;  // all but the face through which the walk came
+  unsigned allowed = 15;  // all but the face that the walk came through
   while (true) {
     const Cell& cell = d_.cells[here];
     const auto& v = cell.vertices;
@@ -74,7 +74,7 @@ CCDT_ALWAYS_INLINE std::uint32_t Insertion::walk(std::uint32_t start) {
   }
 }
 
-/// The first of these faces, from the one whose turn it is.
+/// The first of these faces, starting from the one whose turn it is.
 inline unsigned Insertion::first_face(unsigned faces) const {
   const unsigned turned = (faces | faces << 4) >> (turn_ & 3);
   return (turn_ + static_cast<unsigned>(std::countr_zero(turned))) & 3;
@@ -248,7 +248,7 @@ bool Insertion::conflicts(const Cell& cell) const {
   return conflicts_in_doubt(cell, sign);
 }
 
-/// A new vertex with the greatest rank is outside a sphere on which it lies.
+/// A new vertex with the greatest rank is outside a sphere that it lies on.
 ///
 /// \param sign  zero or unknown
 bool Insertion::conflicts_in_doubt(const Cell& cell, Sign sign) const {
@@ -326,8 +326,8 @@ inline std::uint32_t Insertion::make_cell(const CavityFace& face, std::uint32_t 
   return ghost;
 }
 
-/// Two new cells are neighbors across the face of the new vertex and an edge of the border, which their border faces
-/// pass in opposite directions: each one leaves its code in the table, then each finds that of the other. (No branch
+/// Two new cells share the face between the new vertex and an edge of the border. Their border faces run along this
+/// edge in opposite directions: each cell leaves its code in the table, then each finds that of the other. (No branch
 /// depends on which vertices and edges were met before, since that is unpredictable.)
 template <std::size_t side>
 void Insertion::connect_by_table(RawVector<std::uint32_t>& codes) {
@@ -336,7 +336,7 @@ void Insertion::connect_by_table(RawVector<std::uint32_t>& codes) {
     std::uint8_t ghost;  ///< its position; 3: it is none of them
   };
   std::array<Corners, 2 * side> corners;
-  std::array<std::uint32_t, side + 1> vertices;  // the last place is for what is no new vertex
+  std::array<std::uint32_t, side + 1> vertices;  // the last place is for vertices already numbered
   std::size_t numbered = 0;
   std::uint32_t* const table = codes.data();
   for (std::size_t i = 0; i < border_.size; ++i) {
@@ -347,7 +347,7 @@ void Insertion::connect_by_table(RawVector<std::uint32_t>& codes) {
       const std::uint32_t u = face.vertices[k];
       std::uint8_t& local = local_of(u);
       vertices[numbered] = u;
-      // `no_local` is greater than any number, and that of a vertex that has one is less than the next.
+      // `no_local` is greater than any number, and a vertex that has a number has one less than the next.
       corners[i].local[k] = local = static_cast<std::uint8_t>(std::min<std::size_t>(local, numbered));
       numbered += local == numbered;
       if (u != ghost_vertex) d_.cell_at[u] = place;

@@ -13,7 +13,7 @@
 
 namespace ccdt::delaunay {
 
-/// A face between a cell that a new vertex destroys and one that it leaves.
+/// A face between a cell that a new vertex destroys and one that stays.
 struct CavityFace {
   std::array<std::uint32_t, 3> vertices;  ///< the new vertex is above them
   std::uint32_t outside;                  ///< code of the face in the cell that stays
@@ -25,15 +25,16 @@ enum class Ties {
   any_rank        ///< by comparing all ranks
 };
 
-/// Marks of an insertion at the cells and vertices that it visits; between two insertions, all have their first values.
+/// Marks of an insertion at the cells and vertices that it visits; between two insertions, all have their initial
+/// values.
 struct InsertionMarks {
   static constexpr std::uint8_t no_local = 0xFF;
 
   RawVector<std::uint8_t> in_cavity;  ///< by cell
-  std::vector<std::uint8_t> local;    ///< by vertex: its number among those of the cavity's border; `no_local`: none
+  std::vector<std::uint8_t> local;    ///< by vertex: its number on the cavity's border, or `no_local`
 };
 
-/// The parts of space in which several insert at the same time.
+/// The parts of space in which several threads insert at the same time.
 struct InsertionParts {
   using Part = std::uint16_t;
 
@@ -46,15 +47,15 @@ struct InsertionParts {
     const Part part = of_vertex[v[0]];
     return of_vertex[v[1]] != part || of_vertex[v[2]] != part || (v[3] != ghost_vertex && of_vertex[v[3]] != part);
   }
-  /// Is the cell behind a face of an own cell shared?
+  /// Is the cell behind a face of a cell of this part shared?
   ///
   /// \param code  of the face in that cell
   bool is_shared_behind_own(const Cell& cell, std::uint32_t code) const {
     const std::uint32_t apex = cell.vertices[face_of(code)];
     return apex != ghost_vertex && of_vertex[apex] != own;
   }
-  /// Is the cell behind this face of a shared cell certain to be shared or of the own part? If not, another thread may
-  /// be replacing it.
+  /// Is the cell behind this face of a shared cell certain to be shared or of this part? If not, another thread may be
+  /// replacing it.
   bool may_cross(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Part part = of_vertex[a];
     return part == own || of_vertex[b] != part || of_vertex[c] != part;
@@ -75,7 +76,7 @@ class Insertion {
   explicit Insertion(Delaunay& delaunay);
   /// \param marks  working memory to use instead of its own
   Insertion(Delaunay& delaunay, InsertionMarks& marks);
-  /// One of several that insert at the same time, each in its own part. It changes no shared cell, except for the codes
+  /// One of several insertions at the same time, each in its own part. It changes no shared cell, except for the codes
   /// of its own faces.
   ///
   /// \param marks  of all cells and vertices, places of the pool included
@@ -84,16 +85,16 @@ class Insertion {
   Insertion(Delaunay& delaunay, InsertionMarks& marks, const InsertionParts& parts, CellPool& pool,
             std::span<const std::uint32_t> free);
 
-  /// Finds the cells whose (perturbed) circumsphere the vertex `v`, already in `delaunay.vertices`, is in.
-  /// \param start  a cell to start the walk; the nearer, the faster
+  /// Finds the cells whose (perturbed) circumsphere contains the vertex `v`, which is already in `delaunay.vertices`.
+  /// \param start  a cell where the walk starts; the nearer, the faster
   /// \param ties   the rank of the vertex relative to those in the tetrahedralization
   /// \return false if the tetrahedralization has a vertex at this point (`twin()` returns it), or if a shared
   ///         cell is in the way (`twin()` is none)
   bool find_cavity(std::uint32_t v, std::uint32_t start, Ties ties = Ties::greatest_rank);
 
-  /// Where to start the walk to a vertex: at the vertex before it, which is next to it on the Hilbert curve.
+  /// Where the walk to a vertex starts: at the vertex before it, which is next to it on the Hilbert curve.
   ///
-  /// \param other  a cell to start with if the vertex before it has no cells or is in another part
+  /// \param other  the start if the vertex before it has no cells or is in another part
   std::uint32_t cell_near(std::uint32_t v, std::uint32_t other) const;
 
   std::span<const std::uint32_t> cavity_cells() const { return cavity_.items(); }
@@ -107,11 +108,11 @@ class Insertion {
 
   /// Discards the cavity and changes nothing.
   void discard_cavity();
-  /// Places that one of several insertions has and does not use.
+  /// Places that one of several insertions has left over.
   std::span<const std::uint32_t> free_places() const { return free_places_; }
   /// Is there room for the cells that will fill the cavity?
   bool has_room();
-  /// Joins the new vertex to the border of the cavity, for which there must be room.
+  /// Joins the new vertex to the border of the cavity. There must be room for the cells.
   /// \return one of the new cells
   std::uint32_t fill_cavity();
   /// The cells that filled the last cavity, in its order of faces; valid until the next one is filled.
@@ -165,7 +166,7 @@ class Insertion {
   List<CavityFace> border_;
   std::vector<std::uint32_t> places_;  ///< of the new cells, one for each face of the border
   // Vertices of the border get small local numbers, so that its directed edges are places in a small table of face
-  // codes. Few cavities need the large one, which takes more than the fastest cache.
+  // codes. Few cavities need the large table, which exceeds the fastest cache.
   static constexpr std::size_t table_side = 64, large_table_side = 254;
   std::uint8_t local_of_ghost_ = InsertionMarks::no_local;
   RawVector<std::uint32_t> table_, large_table_;

@@ -30,9 +30,9 @@ struct VertexBatch {
   std::array<std::uint32_t, capacity> vertices;
 };
 
-/// The spheres through the corners of a face, of which the candidate for the fourth vertex picks one; with
-/// floating-point tests of certified error in front of the exact ones. For a vertex e relative to the first corner (an
-/// exact difference):
+/// The spheres through the corners of a face. The candidate for the fourth vertex determines one of them.
+/// Floating-point tests with certified error bounds precede the exact ones. For a vertex e relative to the first corner
+/// (an exact difference):
 ///   normal . e > 0                      e is above the face
 ///   weight . e - volume * e^2 > 0       e is inside the sphere
 class SpherePencil {
@@ -61,7 +61,7 @@ class SpherePencil {
     if ((power > power_error && height > height_error) || is_better(v)) accept(v);
   }
 
-  /// Considers all at once, if there is no candidate yet and the circle is known. Overwrites the values.
+  /// Considers all vertices at once, if there is no candidate yet and the circle is known. Overwrites the values.
   void consider_first(VertexBatch& batch);
 
   /// Makes a vertex strictly above the face the candidate.
@@ -71,7 +71,7 @@ class SpherePencil {
   struct Circle {
     Point3 center;
     double radius = infinity;  ///< infinite: not known
-    double error = 0;          ///< at most, of center and radius
+    double error = 0;          ///< at most this, of center and radius
   };
   const Circle& circle() const { return circle_; }
 

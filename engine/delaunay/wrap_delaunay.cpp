@@ -19,13 +19,12 @@ using FaceCorners = std::array<std::uint32_t, 3>;
 
 // ---- The first face
 
-// A point straight up, about as far away as points can be, so that the filters of the predicates work as for any
-// points.
-constexpr Point3 upwards = {0, 0, 0x1p51};
+// A point straight up, about as far away as points can be, so that the predicates' filters work as usual.
+constexpr Point3 upward = {0, 0, 0x1p51};
 
-/// Finds a face of the Delaunay tetrahedralization from which it can be built face by face: one of the convex hull, by
-/// wrapping a plane around the points: a vertex, an edge, the plane of a hull face, a Delaunay triangle in that plane.
-/// Each step is one exact pass over the vertices.
+/// Finds a face of the Delaunay tetrahedralization from which it can be built face by face. The face is on the convex
+/// hull, and is found by wrapping a plane around the points: first a vertex, then an edge, the plane of a hull face,
+/// and a Delaunay triangle in that plane. Each step is one exact pass over the vertices.
 class HullWrapping {
  public:
   explicit HullWrapping(std::span<const GridVertex> vertices) : v_(vertices) {}
@@ -57,9 +56,9 @@ class HullWrapping {
     return static_cast<std::uint32_t>(std::min_element(v_.begin(), v_.end(), lower) - v_.begin());
   }
 
-  /// The upright plane through a and the result, which is not straight above a, has no vertices on its outer side.
+  /// A vertex not straight above a; the upright plane through both has no vertices on its outer side.
   std::uint32_t beside(std::uint32_t a) const {
-    const Point3 up = at(a) + upwards;
+    const Point3 up = at(a) + upward;
     std::uint32_t b = none;
     for (std::uint32_t e = 0; e < v_.size(); ++e) {
       if (at(e).x == at(a).x && at(e).y == at(a).y) continue;
@@ -70,13 +69,13 @@ class HullWrapping {
 
   /// A vertex of the upright plane through a and b that is not on the line of a and b.
   std::uint32_t on_upright_plane(std::uint32_t a, std::uint32_t b) const {
-    const Point3 up = at(a) + upwards;
+    const Point3 up = at(a) + upward;
     for (std::uint32_t e = 0; e < v_.size(); ++e)
       if (orient3d(at(a), up, at(b), at(e)) == 0 && !collinear(at(a), at(b), at(e))) return e;
     return none;
   }
 
-  /// The plane that turns around the line of a and b meets this vertex first.
+  /// The vertex that a plane turning around the line of a and b meets first.
   std::uint32_t around(std::uint32_t a, std::uint32_t b) const {
     std::uint32_t c = none;
     for (std::uint32_t e = 0; e < v_.size(); ++e)
@@ -90,7 +89,7 @@ class HullWrapping {
     return none;
   }
 
-  /// Next to a on the boundary of the vertices of a hull plane, counterclockwise as seen from outside.
+  /// The vertex next to a on the boundary of the vertices of a hull plane, counterclockwise as seen from outside.
   std::uint32_t along_boundary(std::span<const std::uint32_t> plane, std::uint32_t a, std::uint32_t inner) const {
     std::uint32_t q = none;
     for (const std::uint32_t e : plane) {
@@ -102,13 +101,13 @@ class HullWrapping {
     return q;
   }
 
-  /// Of two multiples of one vector.
+  /// For two multiples of one vector.
   static bool is_nearer(const Point3& p, const Point3& q) {
     return std::array{std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)} <
            std::array{std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)};
   }
 
-  /// The vertex that makes a Delaunay triangle of the edge from a to q, in their plane.
+  /// The vertex that makes a Delaunay triangle with the edge from a to q, in their plane.
   std::uint32_t above_edge(std::span<const std::uint32_t> plane, std::uint32_t a, std::uint32_t q,
                            std::uint32_t inner) const {
     std::uint32_t r = none;
@@ -126,7 +125,7 @@ class HullWrapping {
 
 // ---- The hull
 
-/// The corners of a face, such that the vertex opposite to it is below them.
+/// The corners of a face, in an order with the opposite vertex below them.
 FaceCorners outward_corners(const LargeVector<Cell>& cells, std::uint32_t code) {
   const auto [a, b, c] = corners_of_face(cells[cell_of(code)].vertices, face_of(code));
   return {a, c, b};
@@ -142,7 +141,7 @@ struct UnfinishedFace {
 struct Side {
   std::uint64_t edge;
   std::uint32_t face;      ///< its place among the open faces
-  std::uint32_t opposite;  ///< place among its outward corners of the one that is not on the edge
+  std::uint32_t opposite;  ///< which of its outward corners is not on the edge
 };
 
 /// The sides of all faces, those of one edge next to each other.
@@ -182,13 +181,13 @@ void add_faces_seen_by_lone_vertices(const LargeVector<Cell>& cells, std::span<c
   }
 }
 
-/// Are the open faces the convex hull? They are the border of a body of Delaunay cells connected by faces. It is the
-/// hull when it is convex, and it is convex when it is so at each of its edges; and then, when it has all vertices. So
-/// it is not necessary to search everything above a face of the hull.
+/// Are the open faces the convex hull? They are the border of a body of Delaunay cells connected by faces. They are the
+/// hull if the body is convex, which holds if it is convex at each edge, and contains all vertices. So it is not
+/// necessary to search everything above a face of the hull.
 ///
 /// \param faces  codes of the open faces
-/// \return  faces that are not of the hull: at edges that are not convex; if there are none, those that see a vertex
-///          that no cell has
+/// \return  faces that are not on the hull: those at edges that are not convex or, if there are none, those that see a
+///          vertex that no cell has
 std::vector<UnfinishedFace> find_unfinished(const LargeVector<Cell>& cells, std::span<const GridVertex> vertices,
                                             std::span<const std::uint32_t> faces) {
   const auto corners = corners_of(cells, faces);
@@ -211,7 +210,7 @@ std::vector<UnfinishedFace> find_unfinished(const LargeVector<Cell>& cells, std:
   return result;
 }
 
-/// Adds a ghost for each of the open faces, which are those of the hull, and makes them neighbors.
+/// Adds a ghost for each of the open faces, which form the hull, and makes the ghosts neighbors.
 void add_ghosts(LargeVector<Cell>& cells, std::span<const std::uint32_t> faces) {
   const auto corners = corners_of(cells, faces);
   const auto first = static_cast<std::uint32_t>(cells.size());
@@ -257,7 +256,7 @@ class Wrap {
  private:
   bool is_open(std::uint32_t code) const { return cells_[cell_of(code)].neighbors[face_of(code)] == no_neighbor; }
 
-  /// Adds the cell above each open face for which a local search finds one; postpones the others.
+  /// Adds the cell above each open face if a local search finds one; postpones the other faces.
   void advance() {
     std::vector<std::uint32_t> faces;
     while (!front_.empty()) {
@@ -290,8 +289,8 @@ class Wrap {
     if ((cell & 0x3FFFF) == 0x3FFFF) report(progress_, "delaunay", cell, 0);
   }
 
-  /// Closes the face with the open one that has the same corners, and makes them neighbors; if there is none, the face
-  /// stays open. \return was it closed?
+  /// Closes the face with the open one that has the same corners, and makes their cells neighbors; if there is none,
+  /// the face stays open. \return was it closed?
   bool close_or_open(std::uint32_t code) {
     const auto [a, b, c] = corners_of_face(cells_[cell_of(code)].vertices, face_of(code));
     const auto [other, is_new] = open_.insert(face_key(a, b, c), code);
@@ -307,7 +306,7 @@ class Wrap {
   LargeVector<Cell> cells_;
   HashTable<FaceKey, std::uint32_t> open_;  ///< faces that have a cell on one side only: the codes by the corners
   std::vector<std::uint32_t> front_;        ///< faces to process next; some may be closed already
-  std::vector<std::uint32_t> postponed_;    ///< open faces without a vertex nearby: of the hull, or at a wide gap
+  std::vector<std::uint32_t> postponed_;    ///< open faces without a vertex nearby: on the hull, or at a wide gap
 };
 
 }  // namespace

@@ -11,8 +11,7 @@ namespace ccdt::facets {
 
 /// The axis nearest to the normal of a facet: 1, 2 or 3; negative if the normal points against it.
 ///
-/// The normal of a single face of a facet that is flat only within the tolerance may point anywhere: it may be a
-/// needle.
+/// The normal of a single face of a nearly flat facet may point anywhere: the face may be a needle.
 using FacetAxis = std::int8_t;
 
 /// \param normal  of the facet: the sum over its faces
@@ -21,7 +20,7 @@ inline FacetAxis axis_along(const Point3& normal) {
   return static_cast<FacetAxis>(as_array(normal)[axis] < 0 ? -axis - 1 : axis + 1);
 }
 
-/// Exactly: does a triangle turn the same way as the facet, seen along its axis? Faces that are not upright fold over.
+/// Does a triangle turn the same way as the facet, seen along its axis? Exact. Faces that are not upright fold over.
 inline bool is_upright(const Point3& a, const Point3& b, const Point3& c, FacetAxis axis) {
   const double up = axis > 0 ? 1 : -1;
   const int number = std::abs(axis);

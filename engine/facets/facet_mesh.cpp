@@ -26,9 +26,9 @@ using Vertices = std::span<const delaunay::DelaunayVertex>;
 
 /// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `planar::Predicates`).
 ///
-/// In an exactly flat facet they are those of space with an apex above the plane. A facet that is flat only within the
-/// tolerance is *flattened*: its vertices are seen along the axis that its normal is nearest to, stretched to their
-/// true distances and rounded to the grid, which gives points that are exactly in one plane.
+/// In an exactly flat facet they are those of space with an apex above the plane. A nearly flat facet is *flattened*:
+/// its vertices are projected along the axis nearest to its normal, stretched to their true distances, and rounded to
+/// the grid. So they are exactly in one plane.
 class FacetPlane {
  public:
   FacetPlane(Vertices vertices, const Point3& apex) : vertices_(vertices), apex_(apex) {}
@@ -51,13 +51,13 @@ class FacetPlane {
   Point3 apex_;
 };
 
-/// The plane of a facet that is flat only within the tolerance, where the preferred diagonal is the one further from
-/// the domain, and the Delaunay one only between exactly coplanar vertices. Seen from the domain the edges that
-/// `planar::legalize` leaves are convex where they can be; and convex edges need no protection (Shewchuk 2002).
-class BentPlane {
+/// The plane of a nearly flat facet, where the preferred diagonal is the one farther from the domain, or the Delaunay
+/// one if the four vertices are exactly coplanar. Seen from the domain, the edges that `planar::legalize` leaves are
+/// convex where they can be; and convex edges need no protection (Shewchuk 2002).
+class NearlyFlatPlane {
  public:
   /// \param domain_side  +1: the domain is above the facet, -1: below
-  BentPlane(const FacetPlane& plane, Vertices vertices, int domain_side)
+  NearlyFlatPlane(const FacetPlane& plane, Vertices vertices, int domain_side)
       : plane_(plane), vertices_(vertices), domain_side_(domain_side) {}
 
   int orient(VertexId a, VertexId b, VertexId c) const { return plane_.orient(a, b, c); }
@@ -111,9 +111,9 @@ FacetPlane exact_plane(std::span<const Triangle> triangles, Vertices vertices) {
 }
 
 /// How many facets a thread takes at a time.
-constexpr std::size_t facets_a_chunk = 1024;
+constexpr std::size_t facets_per_chunk = 1024;
 
-/// Processes the facets of one PLC; holds their shared data. A copy may work at the same time.
+/// Processes the facets of one PLC; holds their shared data. Copies may work at the same time.
 class FacetMesher {
  public:
   FacetMesher(const plc::Plc& plc, const protection::SegmentChains& chains, const delaunay::Delaunay& delaunay)
@@ -147,7 +147,7 @@ class FacetMesher {
     result.facet.resize(result.triangles.size(), id);
   }
 
-  /// Are these triangles of a facet Delaunay faces without a flat cell on the side of the domain?
+  /// Are these triangles of a facet Delaunay faces that have no flat cell on the domain's side?
   bool face_domain(const plc::Facet& facet, std::span<const Triangle> triangles, std::span<const std::uint32_t> codes) {
     if (std::ranges::find(codes, delaunay::no_neighbor) != codes.end()) return false;
     enter(facet, triangles);
@@ -186,20 +186,19 @@ class FacetMesher {
           segments.push_back({a, b, found, segments.size()});
       }
     }
-    // A segment within the facet is met from both sides.
+    // A segment within the facet is found from both sides.
     std::ranges::sort(segments, {}, [](const auto& s) { return std::pair(s.segment, s.number); });
     const auto same = [](const auto& l, const auto& r) { return l.segment == r.segment; };
     segments.erase(std::unique(segments.begin(), segments.end(), same), segments.end());
     return segments;
   }
 
-  /// Sees the vertices along the frame's axis and stretches what is seen to true distances: with the other two
-  /// coordinates (s, t) and the heights that the plane has there, the distances are those of a linear image of (s, t),
-  /// which loses no orientation.
+  /// Projects the vertices along the frame's axis and stretches the projection to true distances. Distances in the
+  /// plane are those of a linear image of the other two coordinates (s, t), which keeps orientations.
   FacetPlane flatten(std::span<const Triangle> triangles, const std::vector<FacetSegment>& segments) {
     const FacetFrame frame = frame_of(triangles, d_.vertices);
     flattened_.resize(d_.vertices.size());
-    const auto pick = [&](const Point3& p) {  // the axis last, turning the other two so that above stays above
+    const auto pick = [&](const Point3& p) {  // the axis last, with the other two in the order that keeps above above
       if (frame.axis == 0) return Point3{p.y, p.z, p.x};
       if (frame.axis == 1) return Point3{p.z, p.x, p.y};
       return p;
@@ -238,7 +237,7 @@ class FacetMesher {
     return t;
   }
 
-  /// Are the three vertices on one line, up to the tolerance? So are vertices along an edge of a rotated part.
+  /// Are the three vertices on one line, up to the tolerance? Vertices along an edge of a rotated part are.
   bool is_chain(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     const Point3 u = d_.point(b) - d_.point(a), v = d_.point(c) - d_.point(a), w = d_.point(c) - d_.point(b);
     const double longest = std::max({squared_length(u), squared_length(v), squared_length(w)});
@@ -251,7 +250,7 @@ class FacetMesher {
                                [&](std::uint32_t u) { return u != delaunay::ghost_vertex && in_facet_[u] == here_; });
   }
 
-  /// Are all vertices of the cell in the current facet, and may it be left out? Not if only this cell joins a slightly
+  /// Are all vertices of the cell in the current facet, and may it be left out? It may not if it alone joins a slightly
   /// protruding vertex on the border of the facet to the domain.
   bool is_flat_cell(std::uint32_t cell, const FacetPlane& plane) const {
     if (!has_all_vertices_here(cell)) return false;
@@ -275,14 +274,14 @@ class FacetMesher {
     return has_all_vertices_here(cell) && !is_flat_cell(cell, plane);
   }
 
-  /// The cell on the side of the domain of a face of the facet, which is given by its code.
+  /// The cell on the domain's side of a face of the facet, which is given by its code.
   std::uint32_t cell_on_domain_side(std::uint32_t code) const {
     const std::uint32_t cell = delaunay::cell_of(code);
     return domain_side_ > 0 ? cell : delaunay::cell_of(d_.cells[cell].neighbors[delaunay::face_of(code)]);
   }
 
-  /// The edges of the Delaunay faces of the facet without a flat cell on the side of the domain.
-  std::vector<planar::Edge> edges_towards_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices) {
+  /// The edges of the facet's Delaunay faces that have no flat cell on the domain's side.
+  std::vector<planar::Edge> edges_toward_domain(const FacetPlane& plane, const std::vector<VertexId>& vertices) {
     std::vector<planar::Edge> edges;
     for (const VertexId v : vertices) {
       for (const std::uint32_t c : star_.around(v)) {
@@ -302,7 +301,7 @@ class FacetMesher {
         }
       }
     }
-    // The numbers of cells depend on how the tetrahedralization was made. The triangles must not.
+    // The numbers of cells depend on how the tetrahedralization was made, but the triangles must not.
     std::ranges::sort(edges);
     const auto rest = std::ranges::unique(edges);
     edges.erase(rest.begin(), rest.end());
@@ -323,7 +322,7 @@ class FacetMesher {
     return vertices;
   }
 
-  /// Gives a facet that is not exactly flat the Delaunay faces without a flat cell on the side of the domain.
+  /// Gives a facet that is not exactly flat the Delaunay faces that have no flat cell on the domain's side.
   void take_faces_on_domain_side(const plc::Facet& facet, const FacetPlane& plane, planar::Triangulation& t) {
     const std::vector<VertexId> vertices = enter(facet, t.triangles);
     const auto is_right = [&](const Triangle& triangle) {
@@ -331,14 +330,13 @@ class FacetMesher {
       return code != delaunay::no_neighbor && !is_flat_cell(cell_on_domain_side(code), plane);
     };
     if (std::all_of(t.triangles.begin(), t.triangles.end(), is_right)) return;
-    for (const planar::Edge& edge : edges_towards_domain(plane, vertices)) {
+    for (const planar::Edge& edge : edges_toward_domain(plane, vertices)) {
       const auto side = planar::find_edge(t, edge[0], edge[1]);
       if (!side || !t.constrained[side->triangle][side->corner]) planar::insert_constraint(t, edge[0], edge[1], plane);
     }
-    // The rest are not Delaunay faces. Their edges must not be reflex, otherwise the front might find no way around
-    // them.
+    // The rest are not Delaunay faces. Their edges must not be reflex, or else the front might find no way around them.
     const bool on_both_sides = plc_.regions[facet.above].inside && plc_.regions[facet.below].inside;
-    if (!on_both_sides) planar::legalize(t, BentPlane(plane, d_.vertices, domain_side_));
+    if (!on_both_sides) planar::legalize(t, NearlyFlatPlane(plane, d_.vertices, domain_side_));
   }
 
   const plc::Plc& plc_;
@@ -357,15 +355,15 @@ class FacetMesher {
 /// call returns false.
 template <class Work>
 void in_chunks(const FacetMesher& first, std::size_t count, const Work& work) {
-  std::vector<FacetMesher> meshers(std::min<std::size_t>(thread_count(), count / facets_a_chunk + 1), first);
+  std::vector<FacetMesher> meshers(std::min<std::size_t>(thread_count(), count / facets_per_chunk + 1), first);
   std::atomic<std::size_t> next = 0;
   parallel_for(meshers.size(), 1, [&](std::size_t m) {
-    for (std::size_t begin = next.fetch_add(facets_a_chunk); begin < count; begin = next.fetch_add(facets_a_chunk))
-      if (!work(meshers[m], begin, std::min(count, begin + facets_a_chunk))) return;
+    for (std::size_t begin = next.fetch_add(facets_per_chunk); begin < count; begin = next.fetch_add(facets_per_chunk))
+      if (!work(meshers[m], begin, std::min(count, begin + facets_per_chunk))) return;
   });
 }
 
-/// The faces of each facet follow one another.
+/// The faces of each facet are consecutive.
 struct FacetFaces {
   FacetId facet;
   std::size_t begin, end;
@@ -385,10 +383,10 @@ std::vector<FacetFaces> faces_by_facet(const FacetMesh& facets) {
 FacetMesh triangulate_facets(const plc::Plc& plc, const protection::SegmentChains& chains,
                              const delaunay::Delaunay& delaunay, const Progress& progress) {
   const std::size_t count = plc.facets.size();
-  std::vector<FacetMesh> parts((count + facets_a_chunk - 1) / facets_a_chunk);
+  std::vector<FacetMesh> parts((count + facets_per_chunk - 1) / facets_per_chunk);
   SharedProgress shared(progress, "facets", 0, count);
   in_chunks(FacetMesher(plc, chains, delaunay), count, [&](FacetMesher& mesher, std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) mesher.triangulate(FacetId(f), parts[begin / facets_a_chunk]);
+    for (std::size_t f = begin; f < end; ++f) mesher.triangulate(FacetId(f), parts[begin / facets_per_chunk]);
     return shared.add(end - begin);
   });
   FacetMesh result;

@@ -68,7 +68,7 @@ FacetDivider::FacetDivider(const plc::Plc& plc, const delaunay::Delaunay& delaun
   for (const FacetId f : mesh_.facet) ++first_[f + 1];
   for (std::uint32_t f = 0; f < plc.facets.size(); ++f) {
     first_[f + 1] += first_[f];
-    if (!is_bent(f)) continue;
+    if (!is_nearly_flat(f)) continue;
     const std::vector<std::uint32_t> across = list_neighbors(triangles_of(f));
     for (std::size_t side = 0; side < across.size(); ++side)
       if (across[side] != none) across_[3 * first_[f] + side] = first_[f] + across[side];
@@ -79,13 +79,13 @@ std::array<Point3, 3> FacetDivider::corners_of(const Triangle& t) const {
   return {plc_.vertices[t[0]], plc_.vertices[t[1]], plc_.vertices[t[2]]};
 }
 
-/// The triangles along which the facet is divided.
+/// The triangles into which the facet is divided.
 std::span<const std::array<VertexId, 3>> FacetDivider::triangles_of(std::uint32_t f) const {
   if (step_[f] == Step::input) return plc_.triangles_of(plc_.facets[f]);
   return std::span(mesh_.triangles).subspan(first_[f], first_[f + 1] - first_[f]);
 }
 
-/// The triangle with which this one stays. Two needles may have their longest edge in common.
+/// The triangle that this one stays with. Two needles may share their longest edge.
 std::uint32_t FacetDivider::leader(std::uint32_t i) const {
   constexpr int most_steps = 100;
   std::uint32_t before = none;
@@ -103,7 +103,7 @@ std::uint32_t FacetDivider::leader(std::uint32_t i) const {
   return i;
 }
 
-/// Is an inner edge of the Delaunay triangles along a segment that is none of the facet?
+/// Does an inner edge of the Delaunay triangles run along a segment of another facet?
 bool FacetDivider::touches_segment(std::uint32_t f) const {
   HashSet<std::uint64_t> own;
   for (const Triangle& t : plc_.triangles_of(plc_.facets[f]))
@@ -117,9 +117,9 @@ bool FacetDivider::touches_segment(std::uint32_t f) const {
   return false;
 }
 
-/// Makes the Delaunay triangles where a face is facets of their own.
+/// Makes separate facets of the Delaunay triangles where a face is.
 ///
-/// \return  false if they are already
+/// \return  false if they are separate already
 bool FacetDivider::separate(std::uint32_t f, const std::array<Point3, 3>& face) {
   const Point3 normal = plc::sum_of_normals(plc_.triangles_of(plc_.facets[f]), plc_.vertices);
   const auto axis = static_cast<std::size_t>(dominant_axis(normal));
@@ -139,7 +139,7 @@ void FacetDivider::divide(const facets::FacetMesh& faces, std::span<const std::u
   std::map<std::uint32_t, std::vector<std::uint32_t>> faces_of;  // by facet
   for (const std::uint32_t face : which) faces_of[origins[faces.facet[face]].facet].push_back(face);
   for (const auto& [f, its] : faces_of) {
-    if (!is_bent(f)) continue;
+    if (!is_nearly_flat(f)) continue;
     if (step_[f] == Step::input) throw MeshError("a flat facet bends", {}, "this is a bug: please report it");
     if (step_[f] == Step::whole) step_[f] = touches_segment(f) ? Step::input : Step::most_triangles;
     bool changed = false;
@@ -158,7 +158,7 @@ void FacetDivider::follow_input(const facets::FacetMesh& faces, std::span<const 
 
 void FacetDivider::follow_input() {
   for (std::uint32_t f = 0; f < step_.size(); ++f)
-    if (is_bent(f)) step_[f] = Step::input;
+    if (is_nearly_flat(f)) step_[f] = Step::input;
 }
 
 bool FacetDivider::give_way(const std::array<VertexId, 2>& segment) {
@@ -180,7 +180,7 @@ void FacetDivider::make_grazeable(const plc::Plc& plc, std::span<const std::uint
     grazeable_.push_back(edge_key(plc.segments[s].ends[0], plc.segments[s].ends[1]));
 }
 
-/// The triangles of a facet with the same number are one facet.
+/// The number of a triangle's group. Triangles of a facet with the same number form one facet.
 ///
 /// \param i  of `triangles_of(f)`
 std::uint32_t FacetDivider::group_of(std::uint32_t f, std::uint32_t i) const {
@@ -243,7 +243,7 @@ std::vector<FacetOrigin> FacetDivider::origins() const {
   std::vector<FacetOrigin> origins;
   for (std::uint32_t f = 0; f < step_.size(); ++f) {
     const std::size_t parts = step_[f] == Step::whole ? 1 : parts_of(f).size();
-    origins.insert(origins.end(), parts, {FacetId(f), is_bent(f) && step_[f] != Step::input});
+    origins.insert(origins.end(), parts, {FacetId(f), is_nearly_flat(f) && step_[f] != Step::input});
   }
   return origins;
 }

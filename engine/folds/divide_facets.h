@@ -13,10 +13,11 @@
 
 namespace ccdt::folds {
 
-/// Divides bent facets of a PLC into flat ones, with segments between them. Each facet is divided further step by step:
+/// Divides nearly flat facets of a PLC into exactly flat ones, with segments between them. Each facet is divided
+/// further step by step:
 ///
-/// 1. Some of its Delaunay triangles become facets of their own. A needle stays with the triangle at its longest edge:
-///    nothing could protect the segments around it.
+/// 1. Some of its Delaunay triangles become separate facets. A needle stays with the triangle across its longest edge,
+///    since the segments around it could not be protected.
 /// 2. Needles become facets, too.
 /// 3. All triangles that the input has there become facets. These do not meet others of the input, but they may be
 ///    needles.
@@ -35,9 +36,9 @@ class FacetDivider {
   /// Divides facets further where these faces are.
   ///
   /// \param faces     of the facets of `divided()`
-  /// \param origins   of those
+  /// \param origins   of those facets
   /// \param delaunay  of all their vertices
-  /// \throw MeshError  a facet has the triangles of the input already, which is an error of this program
+  /// \throw MeshError  a facet has the triangles of the input already, which is a bug
   void divide(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
               const std::vector<FacetOrigin>& origins, const delaunay::Delaunay& delaunay);
 
@@ -45,16 +46,16 @@ class FacetDivider {
   void follow_input(const facets::FacetMesh& faces, std::span<const std::uint32_t> which,
                     const std::vector<FacetOrigin>& origins);
 
-  /// Gives all bent facets the triangles of the input.
+  /// Gives all nearly flat facets the triangles of the input.
   void follow_input();
 
-  /// Gives up the divisions in the way of a segment that cannot be protected: the facets with its ends, or if there are
-  /// none all divided facets, get the triangles of the input.
+  /// Gives up the divisions in the way of a segment that cannot be protected. The facets with its ends get the
+  /// triangles of the input; if there are none, all divided facets do.
   ///
-  /// \return  false if they have them already
+  /// \return  false if they already have them
   bool give_way(const std::array<VertexId, 2>& segment);
 
-  /// These segments must be protected from now on.
+  /// Notes that these segments must be protected from now on.
   ///
   /// \param plc  `divided()`, which has them
   void make_grazeable(const plc::Plc& plc, std::span<const std::uint32_t> segments);
@@ -63,7 +64,7 @@ class FacetDivider {
   using Triangle = std::array<VertexId, 3>;
   enum class Step : std::uint8_t { whole, most_triangles, needles, input };
 
-  bool is_bent(std::uint32_t f) const { return !plc_.facets[f].exactly_flat; }
+  bool is_nearly_flat(std::uint32_t f) const { return !plc_.facets[f].exactly_flat; }
   std::array<Point3, 3> corners_of(const Triangle& t) const;
   std::span<const Triangle> triangles_of(std::uint32_t f) const;
   std::uint32_t leader(std::uint32_t i) const;
@@ -77,7 +78,7 @@ class FacetDivider {
   double least_height_;  // of triangles that are not needles
   facets::FacetMesh mesh_;
   std::vector<std::uint32_t> first_;       // of the triangles of `mesh_`, by facet
-  std::vector<std::uint32_t> across_;      // of 3 * triangle + edge: a triangle of the same bent facet, if any
+  std::vector<std::uint32_t> across_;      // of 3 * triangle + edge: a triangle of the same nearly flat facet, if any
   std::vector<std::uint8_t> is_separate_;  // by triangle
   std::vector<Step> step_;                 // by facet
   std::vector<std::uint64_t> grazeable_;   // segments, by their ends

@@ -11,7 +11,7 @@ namespace {
 
 using Triangle = std::array<VertexId, 3>;
 
-/// Do two triangles meet in more than common vertices and edges?
+/// Do two triangles share more than vertices and edges?
 bool meet(Triangle s, Triangle t, const delaunay::Delaunay& d) {
   const int common = put_common_first(s, t);
   const auto points_of = [&](const Triangle& c) { return std::array{d.point(c[0]), d.point(c[1]), d.point(c[2])}; };

@@ -9,15 +9,15 @@
 
 namespace ccdt::folds {
 
-/// A facet of the PLC is, or is a part of, a facet of the input.
+/// The facet of the input that a facet of the PLC is, or is a part of.
 struct FacetOrigin {
   FacetId facet;  ///< of the input
   bool moved;     ///< its faces may be elsewhere than those of the input, by less than the tolerance
 };
 
-/// Exactly: the moved faces, ascending, that meet a face from another facet of the input in more than common vertices
-/// and edges. Since Delaunay faces never do, one of the two is missing in the tetrahedralization; since facets of the
-/// input never do, one of the two is moved.
+/// The moved faces, ascending, that share more than vertices and edges with a face from another facet of the input.
+/// Exact. Since Delaunay faces never do, one of the two is missing in the tetrahedralization; since facets of the input
+/// never do, one of the two is moved.
 ///
 /// \param codes    of the faces, see `front::find_delaunay_faces`
 /// \param origins  of the facets

@@ -17,7 +17,7 @@ VertexId corner_beside(const Triangle& t, std::uint64_t edge) {
   return *std::ranges::find_if(t, [&](VertexId v) { return v != edge >> 32 && v != (edge & 0xFFFFFFFFu); });
 }
 
-/// Must the edge of two coplanar faces be flipped to make their triangulation Delaunay?
+/// Must the edge between two coplanar faces be flipped to make them Delaunay?
 bool is_illegal(const delaunay::Delaunay& d, const Triangle& t, VertexId apex) {
   const auto& v = d.vertices;
   const Point3 &a = v[t[0]].point, &b = v[t[1]].point, &c = v[t[2]].point;
@@ -111,14 +111,14 @@ class FoldFinder {
     });
   }
 
-  /// On which side of a face is another one at the edge?
+  /// On which side of one face at an edge is another one?
   int turn(const AtEdge& side, const AtEdge& other) const {
     const Triangle& t = facets_.triangles[side.value];
     const VertexId apex = corner_beside(facets_.triangles[other.value], side.edge);
     return orient3d(d_.point(t[0]), d_.point(t[1]), d_.point(t[2]), d_.point(apex));
   }
 
-  /// Is a sector of the domain of 180 degrees or more around the edge? The next face is then not on that side.
+  /// Does the domain span 180 degrees or more on one side of a face at the edge? Then no other face is on that side.
   bool is_grazeable(std::span<const AtEdge> around, bool is_segment) const {
     if (around.size() == 2 && !is_segment && turn(around[0], around[1]) == 0)
       return is_illegal(d_, facets_.triangles[around[0].value],

@@ -10,9 +10,9 @@
 
 namespace ccdt::folds {
 
-/// Edges of the faces that keep the theorem from holding; all lists ascend. Protection does not know of them: a *fold*
-/// is an edge within a bent facet at which two faces are not coplanar. Like a segment, it is grazeable if a sector of
-/// the domain of 180 degrees or more is around it.
+/// What keeps the theorem from holding; all lists ascend. Protection knows nothing of folds: a *fold* is an edge within
+/// a nearly flat facet where two faces are not coplanar. Like a segment, it is grazeable if the domain spans 180
+/// degrees or more around it.
 struct LooseFolds {
   std::vector<std::uint32_t> segments;  ///< grazeable with these faces, and not protected
   std::vector<std::uint32_t> faces;     ///< at grazeable folds that are not Delaunay

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/folds/find_contacts.h"
 #include "engine/folds/find_folds.h"
@@ -19,9 +20,9 @@ SurfaceProtector::SurfaceProtector(plc::Plc& plc, delaunay::Delaunay delaunay, p
       chains_(std::move(chains)),
       tolerance_(tolerance),
       strategy_(strategy),
-      has_bent_facets_(std::ranges::find(plc.facets, false, &plc::Facet::exactly_flat) != plc.facets.end()) {}
+      has_nearly_flat_facets_(std::ranges::find(plc.facets, false, &plc::Facet::exactly_flat) != plc.facets.end()) {}
 
-/// Gives up divisions that do not allow to protect the segments.
+/// Gives up divisions that keep segments from being protected.
 ProtectedDelaunay SurfaceProtector::protect_segments(const Progress& progress) {
   for (;;) {
     try {
@@ -34,7 +35,7 @@ ProtectedDelaunay SurfaceProtector::protect_segments(const Progress& progress) {
 }
 
 ProtectedDelaunay SurfaceProtector::protect(const Progress& progress) {
-  if (!has_bent_facets_) {
+  if (!has_nearly_flat_facets_) {
     ProtectedDelaunay start = protection::unprotected(plc_, std::move(delaunay_), std::move(chains_));
     return protection::protect_edges(plc_, std::move(start), strategy_, progress);
   }
@@ -48,13 +49,13 @@ ProtectedDelaunay SurfaceProtector::protect(const Progress& progress) {
 }
 
 bool SurfaceProtector::protect_folds() {
-  if (!has_bent_facets_ || divider_) return false;
+  if (!has_nearly_flat_facets_ || divider_) return false;
   undivided_ = plc_;
   divider_.emplace(undivided_, delaunay_, tolerance_);
   return true;
 }
 
-/// Do faces of bent facets meet no other facets?
+/// Do faces of nearly flat facets meet no other facets?
 bool SurfaceProtector::are_apart(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
                                  const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) const {
   std::vector<FacetOrigin> origins;
@@ -65,7 +66,7 @@ bool SurfaceProtector::are_apart(const delaunay::Delaunay& delaunay, const prote
 
 bool SurfaceProtector::is_protected(const delaunay::Delaunay& delaunay, const protection::SegmentChains& chains,
                                     const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) {
-  if (!has_bent_facets_) return true;
+  if (!has_nearly_flat_facets_) return true;
   if (!divider_) {
     if (are_apart(delaunay, chains, faces, codes)) return true;
     throw MeshError("facets that are flat only within the tolerance meet", {.file = plc_.name},
@@ -82,8 +83,10 @@ bool SurfaceProtector::is_protected(const delaunay::Delaunay& delaunay, const pr
     divider_->follow_input(faces, contacts, origins);
     is_protected = contacts.empty();
   }
-  if (!is_protected) plc_ = divider_->divided();
-  return is_protected;
+  if (is_protected) return true;
+  ++work_done.fold_rounds;
+  plc_ = divider_->divided();
+  return false;
 }
 
 }  // namespace ccdt::folds

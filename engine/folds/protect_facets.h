@@ -14,12 +14,12 @@ namespace ccdt::folds {
 
 /// Protects a surface until it has a constrained Delaunay tetrahedralization.
 ///
-/// For exactly flat facets it is enough to protect the segments (`protection::protect_edges`; Shewchuk 2002). A bent
-/// facet, one that is flat only within the tolerance, is not one facet in the sense of that theorem: each of its faces
-/// is. Then *folds*, the edges between these, must be Delaunay, too, if they are grazeable, and no face may meet
-/// another facet, of which it may have been less than the tolerance away. Facets for which that is not so are divided
-/// (`FacetDivider`), and all starts again from the vertices of the PLC. This ends, because each time a facet is divided
-/// further, and the triangles of the input have no folds and meet nothing.
+/// For exactly flat facets it is enough to protect the segments (`protection::protect_edges`; Shewchuk 2002). A facet
+/// that is only nearly flat is not one facet in the sense of that theorem, but each of its faces is. So *folds*, the
+/// edges between these faces, must be Delaunay, too, if they are grazeable. And no face may meet another facet, which
+/// may be closer than the tolerance. Where this fails, facets are divided (`FacetDivider`), and protection starts again
+/// from the vertices of the PLC. This ends: each time a facet is divided further, and the triangles of the input have
+/// no folds and meet nothing.
 ///
 /// Hardly any surface needs its folds, and some cannot have them: where vertices on both sides of a wedge are close to
 /// each other, protection would never end. So folds are protected only after the front has got stuck without that, or
@@ -60,12 +60,12 @@ class SurfaceProtector {
                  const facets::FacetMesh& faces, std::span<const std::uint32_t> codes) const;
 
   plc::Plc& plc_;
-  delaunay::Delaunay delaunay_;  // these two are moved from if no facet is bent
+  delaunay::Delaunay delaunay_;  // these two are moved from if all facets are exactly flat
   protection::SegmentChains chains_;
   double tolerance_;
   protection::Protection strategy_;
-  bool has_bent_facets_;
-  plc::Plc undivided_;                   // these two once folds are protected
+  bool has_nearly_flat_facets_;
+  plc::Plc undivided_;                   // these two are used once folds are protected
   std::optional<FacetDivider> divider_;  // of `undivided_`
 };
 

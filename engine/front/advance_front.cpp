@@ -42,7 +42,7 @@ FrontFace state_of(const FrontInput& in, std::size_t side) {
   return {facet.below, code == no_neighbor ? code : in.delaunay.across(code)};
 }
 
-/// The sides of the PLC's faces on which the domain lies.
+/// The sides of the PLC's faces that the domain is on.
 std::vector<std::uint8_t> sides_within(const FrontInput& in) {
   std::vector<std::uint8_t> is_within(2 * in.facets.triangles.size());
   parallel_for(in.facets.triangles.size(), grain, [&](std::size_t i) {
@@ -83,7 +83,7 @@ class Front {
     for (std::size_t side = 0; side < plc_open_.size(); ++side) {
       if (!plc_open_[side]) continue;
       result_.open.push_back(state_of(in_, side));
-      // Both sides of a plate may have the same triangle, of which the front knows only one.
+      // Both sides of a plate may have the same triangle, but the front knows only one.
       if (result_.open.back().code == no_neighbor)
         fail(face_of_side(side), "a face of the front was not found in the tetrahedralization");
     }
@@ -179,7 +179,7 @@ class Front {
     }
   }
 
-  /// Removes the tetrahedra that contain a vertex that no search has found.
+  /// Removes the tetrahedra that contain a vertex that the searches missed.
   template <class Finder>
   void take_back_swallowing(Finder& finder) {
     contradicted_ = find_swallowing(result_.tetrahedra, in_.facets, in_.delaunay);
@@ -199,14 +199,14 @@ class Front {
       problem = problem_of(face, apex, state);
     }
     if (problem == nullptr) return add_tetrahedron(face, *apex, state);
-    // The face is right if everything on which it rests is right. Then its apex is right too, and whatever contradicts
+    // The face is right if everything that it rests on is right. Then its apex is right too, and whatever contradicts
     // that is wrong or rests on something wrong.
     open(face, state);
     if (state.side == none) contradict(face.reversed());
     if (!take_back_contradicted(finder)) fail(face, problem);
   }
 
-  /// Removes the uncertain tetrahedra on which the contradicted ones rest.
+  /// Removes the uncertain tetrahedra that the contradicted ones rest on.
   /// \return  false if all are certain
   template <class Finder>
   bool take_back_contradicted(Finder& finder) {
@@ -227,8 +227,8 @@ class Front {
     return state != nullptr && state->side != none;
   }
 
-  /// The base of the tetrahedron, or of the next one on which it rests, for which not all vertices were tried; none if
-  /// it rests on the PLC through certain tetrahedra.
+  /// The base of the tetrahedron, or of the nearest one below it, for which not all vertices were tried. None if only
+  /// certain tetrahedra are between it and the PLC.
   template <class Finder>
   std::optional<OrientedFace> first_unsure_base(Finder& finder, std::uint32_t tetrahedron) {
     for (;;) {
@@ -240,9 +240,9 @@ class Front {
     }
   }
 
-  /// Does a search among all vertices give the tetrahedron again? Only tried once much was taken back. Usually it is
-  /// cheaper to take back a right tetrahedron than to search for it. But where thousands rest on each, they would be
-  /// made again and again.
+  /// Does a search among all vertices give the same tetrahedron again? Tried only after much was taken back. Usually it
+  /// is cheaper to take back a right tetrahedron than to check it by a search. But where thousands rest on it, they
+  /// would be made again and again.
   template <class Finder>
   bool is_confirmed(Finder& finder, std::uint32_t tetrahedron) {
     const Tetrahedron& t = result_.tetrahedra[tetrahedron];
@@ -251,8 +251,8 @@ class Front {
            finder.find(base_of(t), result_.regions[tetrahedron], Search::full, cavity) == t[3];
   }
 
-  /// The reason why the face and the apex do not make a constrained Delaunay tetrahedron with those around them;
-  /// `nullptr` if they do. Notes the contradicted ones.
+  /// Why the face and the apex do not make a constrained Delaunay tetrahedron that fits those around it; `nullptr` if
+  /// they do. Notes the contradicted ones.
   const char* problem_of(const OrientedFace& base, std::optional<std::uint32_t> apex, const State& state) {
     contradicted_.clear();
     if (!apex) return "the front found no vertex that is visible from a face";

@@ -27,7 +27,7 @@ struct FrontResult {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented
   std::vector<RegionId> regions;                         ///< of each tetrahedron
   std::vector<FrontFace> open;  ///< the Delaunay faces above which the domain is left to the labeling
-  /// Undelaunay faces that have been in the front: those of the PLC (by their sides within the domain) and new ones.
+  /// Undelaunay faces that have been in the front: those of the PLC (once per side within the domain) and new ones.
   std::uint64_t undelaunay_faces = 0;
 };
 
@@ -35,7 +35,7 @@ struct FrontResult {
 struct FrontInput {
   const plc::Plc& plc;
   const facets::FacetMesh& facets;
-  const std::vector<std::uint32_t>& codes;  ///< of `find_delaunay_faces`; all `no_neighbor`: every face is undelaunay
+  const std::vector<std::uint32_t>& codes;  ///< of `find_delaunay_faces`; without Delaunay faces, all are `no_neighbor`
   const delaunay::Delaunay& delaunay;
 };
 
@@ -44,19 +44,20 @@ struct FrontOptions {
   double grid_scale = 1;        ///< of the grid: factor of the paper's cell size
   bool face_protection = true;  ///< are new faces looked up in the tetrahedralization?
   Visibility visibility = Visibility::centroid;
-  /// The `cavity` locator tries all vertices of a chamber that has at most this many: fewer than are near a face.
+  /// The `cavity` locator tries all vertices of a chamber with at most this many: fewer than are near a face.
   std::size_t small_chamber = 256;
 };
 
 /// Advances the front of constrained Delaunay tetrahedra from the undelaunay faces until all faces of the front are
 /// Delaunay (paper, sections 5.1 to 5.3). For the active face it finds the vertex above it that is visible from it and
-/// whose sphere holds no visible vertex. Visibility is from one generic point of the face, which decides it for all: a
-/// vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the cell there is hidden
-/// from every point of the face (Shewchuk 2008). The paper's tests (`Visibility::faces`) are made before that one.
+/// whose sphere holds no visible vertex. Visibility is tested from one generic point of the face, which decides it for
+/// all its points: a vertex above a face of the constrained Delaunay tetrahedralization that is in the sphere of the
+/// cell there is hidden from every point of the face (Shewchuk 2008). The paper's tests (`Visibility::faces`) come
+/// before this one.
 ///
 /// In a large chamber, the `cavity` locator tries vertices near a face first, because the sphere of a needle may
 /// contain thousands of hidden ones. If the tetrahedra fit together, they are right; those that do not fit are made
-/// again with all vertices tried. The locators of the whole model try all vertices, as the paper does.
+/// again with all vertices tried. The locators of the whole model try all vertices, as in the paper.
 ///
 /// \throw MeshError  the front found no vertex for a face, or met itself: the surface was not protected
 FrontResult advance_front(const FrontInput& input, const FrontOptions& options = {}, const Progress& progress = {});

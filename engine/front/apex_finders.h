@@ -18,7 +18,7 @@ namespace ccdt::front {
 /// The candidates for an apex: the vertices near the face, or all.
 enum class Search { near, full };
 
-/// Finds the apex above a face, with a locator of the whole model, so that there is only one cavity.
+/// Finds the apex above a face with a locator of the whole model, so there is only one cavity.
 template <class Locator>
 class WholeModelFinder {
  public:
@@ -27,10 +27,10 @@ class WholeModelFinder {
       : facets_(facets), d_(delaunay), visibility_(visibility), locator_(std::move(locator)) {}
 
   /// \param region  above the face
-  /// \param cavity  of the tetrahedron below the face; becomes that of the one above it
+  /// \param cavity  of the tetrahedron below the face; becomes the one of the tetrahedron above
   std::optional<std::uint32_t> find(const OrientedFace& face, RegionId /*region*/, Search /*all*/,
                                     std::uint32_t& /*cavity*/) const {
-    return visibility_ == Visibility::faces ? find_apex_as_paper(locator_, facets_, d_, face)
+    return visibility_ == Visibility::faces ? find_apex_as_in_paper(locator_, facets_, d_, face)
                                             : find_apex(locator_, facets_, d_, face);
   }
 
@@ -72,7 +72,7 @@ class CavityFinder {
     if (cavity == none) return std::nullopt;
     const locate::OctreeLocator* const chamber = locator_.chamber(cavity, region);
     if (chamber == nullptr) return std::nullopt;
-    if (visibility_ == Visibility::faces) return find_apex_as_paper(*chamber, facets_, d_, face);
+    if (visibility_ == Visibility::faces) return find_apex_as_in_paper(*chamber, facets_, d_, face);
     if (chamber->vertex_count() <= small_chamber_) return find_apex(*chamber, facets_, d_, face);
     const auto near = find_near_apex(*chamber, facets_, d_, face, near_);
     return search == Search::near ? near : find_apex(*chamber, facets_, d_, face, near);
@@ -90,7 +90,7 @@ class CavityFinder {
   const facets::FacetMesh& facets_;
   const delaunay::Delaunay& d_;
   NearVertices& near_;
-  bool all_faces_;  // may the front hold Delaunay faces, outside of the cavities too?
+  bool all_faces_;  // may the front hold Delaunay faces, outside the cavities too?
   Visibility visibility_;
   std::size_t small_chamber_;
   locate::CavityLocator locator_;

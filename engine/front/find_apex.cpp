@@ -58,9 +58,10 @@ class ApexSearch {
     return seen.id;
   }
 
-  /// As in the paper (sections 4 and 5.1): the first visible vertex is replaced by a visible one in its sphere, as long
-  /// as there is one. Where edges of facets meet edges of the three triangles exactly, facets can hide a vertex though
-  /// they only touch these. So what passes the paper's tests is looked at along a line from a generic point, too.
+  /// As in the paper (sections 4 and 5.1): the first visible vertex is replaced by a visible one in its sphere, until
+  /// there is none. Where edges of facets meet edges of the three triangles exactly, facets can hide a vertex although
+  /// they only touch these. So a vertex that passes the paper's tests is also tested along a line of sight from a
+  /// generic point.
   std::optional<std::uint32_t> find_as_paper() {
     const auto is_seen = [&](const locate::LocatedVertex& v) { return is_visible_from_edges(v) && is_visible(v); };
     locate::LocatedVertex found = nobody;
@@ -89,7 +90,7 @@ class ApexSearch {
     std::uint32_t id;
   };
 
-  /// Updates the best vertex with the best of the visible vertices that are better.
+  /// Replaces the best vertex by the best of the visible vertices that are better.
   void find_better(std::span<const std::uint32_t> vertices, locate::LocatedVertex& best,
                    std::vector<Candidate>& candidates) {
     const Point3 u = b_.point - a_.point, v = c_.point - a_.point, normal = cross(u, v);
@@ -131,8 +132,8 @@ class ApexSearch {
     return best;
   }
 
-  /// The first vertex above the face, ring of cells by ring, that satisfies a condition and is in the sphere of the
-  /// face and another vertex, if one is given; `ghost_vertex` if there is none.
+  /// The first vertex above the face, searched one ring of cells after another, that satisfies a condition and is in
+  /// the sphere of the face and another vertex, if one is given; `ghost_vertex` if there is none.
   template <class Satisfies>
   locate::LocatedVertex first(const locate::LocatedVertex& before, const Satisfies& satisfies) {
     const Point3 &a = a_.point, &b = b_.point, &c = c_.point, start = approximate_centroid(a, b, c);
@@ -222,8 +223,8 @@ std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::Fac
 }
 
 template <class Locator>
-std::optional<std::uint32_t> find_apex_as_paper(const Locator& locator, const facets::FacetMesh& facets,
-                                                const delaunay::Delaunay& delaunay, const OrientedFace& face) {
+std::optional<std::uint32_t> find_apex_as_in_paper(const Locator& locator, const facets::FacetMesh& facets,
+                                                   const delaunay::Delaunay& delaunay, const OrientedFace& face) {
   return ApexSearch<Locator>(locator, facets, delaunay, face).find_as_paper();
 }
 
@@ -240,10 +241,10 @@ template std::optional<std::uint32_t> find_apex(const locate::GridLocator&, cons
 template std::optional<std::uint32_t> find_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                 const delaunay::Delaunay&, const OrientedFace&,
                                                 std::optional<std::uint32_t>);
-template std::optional<std::uint32_t> find_apex_as_paper(const locate::GridLocator&, const facets::FacetMesh&,
-                                                         const delaunay::Delaunay&, const OrientedFace&);
-template std::optional<std::uint32_t> find_apex_as_paper(const locate::OctreeLocator&, const facets::FacetMesh&,
-                                                         const delaunay::Delaunay&, const OrientedFace&);
+template std::optional<std::uint32_t> find_apex_as_in_paper(const locate::GridLocator&, const facets::FacetMesh&,
+                                                            const delaunay::Delaunay&, const OrientedFace&);
+template std::optional<std::uint32_t> find_apex_as_in_paper(const locate::OctreeLocator&, const facets::FacetMesh&,
+                                                            const delaunay::Delaunay&, const OrientedFace&);
 template std::optional<std::uint32_t> find_near_apex(const locate::OctreeLocator&, const facets::FacetMesh&,
                                                      const delaunay::Delaunay&, const OrientedFace&, NearVertices&);
 

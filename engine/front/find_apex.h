@@ -33,23 +33,23 @@ struct OrientedFace {
 /// best so far is tested.
 ///
 /// \tparam Locator  `GridLocator` or `OctreeLocator`, of all vertices and faces that may be near
-/// \param seen_before  a vertex above the face that is visible from it, if one is known: only better ones are tested
+/// \param seen_before  a vertex above the face and visible from it, if one is known: only better ones are tested
 /// \return  nothing if no vertex above the face can be seen from it
 template <class Locator>
 std::optional<std::uint32_t> find_apex(const Locator& locator, const facets::FacetMesh& facets,
                                        const delaunay::Delaunay& delaunay, const OrientedFace& face,
                                        std::optional<std::uint32_t> seen_before = {});
 
-/// The same as the paper does it (sections 4 and 5.1), by the visibility of every candidate from the three edges of the
+/// The same by the paper's method (sections 4 and 5.1): every candidate must be visible from the three edges of the
 /// face. It finds the same vertex: the apex of the constrained Delaunay tetrahedron passes all these tests, and every
 /// vertex in its sphere is hidden from the centroid.
 template <class Locator>
-std::optional<std::uint32_t> find_apex_as_paper(const Locator& locator, const facets::FacetMesh& facets,
-                                                const delaunay::Delaunay& delaunay, const OrientedFace& face);
+std::optional<std::uint32_t> find_apex_as_in_paper(const Locator& locator, const facets::FacetMesh& facets,
+                                                   const delaunay::Delaunay& delaunay, const OrientedFace& face);
 
-/// The same among the vertices near the face, and those near the best so far, until none of these is better. The sphere
-/// of a large face may contain thousands of hidden vertices, which this search skips. So the apex is nearly always
-/// right, but not certainly.
+/// The same among the vertices near the face, then those near the best so far, until none of these is better. The
+/// sphere of a large face may contain thousands of hidden vertices, which this search skips. So the apex is nearly
+/// always right, but not certainly.
 ///
 /// \return  nothing if none of the vertices is above the face and visible from it
 template <class Locator>

@@ -26,8 +26,8 @@ CCDT_ALWAYS_INLINE void load(const std::array<std::uint32_t, 4>& numbers, FourNu
 }
 
 /// A filter in front of a set of triangles (Bloom 1970), which rejects most of those that are not in the set. It is
-/// fast because it is small, and because it takes the hash of a triangle from the sum of those of its corners, so that
-/// their order does not matter, and the faces of a cell share them.
+/// fast because it is small, and because it hashes a triangle by the sum of its corners' hashes. So their order does
+/// not matter, and the faces of a cell share these hashes.
 class FaceFilter {
  public:
   FaceFilter() = default;
@@ -64,7 +64,7 @@ class FaceFilter {
   int shift_ = 0;
 };
 
-/// The corners of a face as a cell sees them. Are they those of the triangle in its order, so that the cell is above
+/// Given the corners of a face as seen from a cell: are they in the order of the triangle, so that the cell is above
 /// it?
 bool sees_in_order(const std::array<std::uint32_t, 3>& face, const std::array<VertexId, 3>& t) {
   const auto& [p, q, r] = face;
@@ -72,7 +72,7 @@ bool sees_in_order(const std::array<std::uint32_t, 3>& face, const std::array<Ve
          (r == t[0] && p == t[1] && q == t[2]);
 }
 
-/// The code of the triangle in the cell above it if it is still the face with this code; `no_neighbor` if it is not.
+/// The code of the triangle in the cell above it, if it is still the face with this code; otherwise `no_neighbor`.
 std::uint32_t confirm(std::uint32_t code, const std::array<VertexId, 3>& triangle, const delaunay::Delaunay& delaunay) {
   const std::uint32_t c = delaunay::cell_of(code);
   if (c >= delaunay.cells.size() || delaunay.is_dead(c)) return no_neighbor;
@@ -81,11 +81,11 @@ std::uint32_t confirm(std::uint32_t code, const std::array<VertexId, 3>& triangl
   return sees_in_order({q, p, r}, triangle) ? delaunay.across(code) : no_neighbor;
 }
 
-/// The same as `find_delaunay_faces`, but few triangles are looked for one by one, not in all cells.
+/// The same as `find_delaunay_faces`, but if there are few triangles, they are looked for one by one, not in all cells.
 std::vector<std::uint32_t> find_others(const std::vector<std::array<VertexId, 3>>& triangles,
                                        const delaunay::Delaunay& delaunay) {
-  constexpr std::size_t cells_a_triangle = 64;  // that could be looked at instead
-  if (triangles.size() > delaunay.cells.size() / cells_a_triangle) return find_delaunay_faces(triangles, delaunay);
+  constexpr std::size_t cells_per_triangle = 64;  // that could be visited instead
+  if (triangles.size() > delaunay.cells.size() / cells_per_triangle) return find_delaunay_faces(triangles, delaunay);
   const FaceMap first(triangles, delaunay.vertices.size());
   std::vector<std::uint32_t> codes(triangles.size(), no_neighbor);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -123,7 +123,7 @@ class FaceMarks {
   RawVector<std::uint8_t> marks_;
 };
 
-/// Of the triangles with this code, or that of its other side, only the first keeps it.
+/// Of the triangles with this code or its other side's, only the first keeps it.
 void keep_first(std::uint32_t code, const delaunay::Delaunay& delaunay, std::vector<std::uint32_t>& codes) {
   const std::uint32_t other_side = delaunay.across(code);
   bool is_first = true;
@@ -171,7 +171,7 @@ std::vector<std::uint32_t> find_delaunay_faces(const std::vector<std::array<Vert
   FaceMap faces;
   FaceFilter filter;
   parallel_both([&] { faces = FaceMap(triangles, delaunay.vertices.size()); }, [&] { filter = FaceFilter(triangles); });
-  // One pass over the cells. (The ghosts' faces are theirs too.)
+  // One pass over the cells. (Faces of ghosts are also faces of cells.)
   parallel_ranges(delaunay.cells.size(), 4096, [&](std::size_t begin, std::size_t end) {
     Candidates candidates;
     for (auto c = static_cast<std::uint32_t>(begin); c < end;) {

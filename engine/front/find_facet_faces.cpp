@@ -13,7 +13,7 @@ std::vector<std::uint32_t> find_facet_faces(const plc::Plc& plc, const facets::F
     while (first > 0 && facets.facet[first - 1] == facets.facet[i]) --first;
     for (; i < end; ++i) {
       if (facets.facet[i] != facets.facet[first]) first = i;
-      // Where a facet has got other triangles, this may be the face of another one.
+      // If the facet got other triangles, this may be the face of another triangle.
       const plc::Facet& facet = plc.facets[facets.facet[i]];
       if (i - first < facet.triangle_count) earlier[i] = plc.faces[facet.first_triangle + (i - first)];
     }

@@ -9,7 +9,7 @@
 
 namespace ccdt::front {
 
-/// `find_delaunay_faces` for the triangles of facets, most of which the check of the input has found already
+/// `find_delaunay_faces` for the triangles of facets. The check of the input has already found most of them
 /// (`Plc::faces`).
 std::vector<std::uint32_t> find_facet_faces(const plc::Plc& plc, const facets::FacetMesh& facets,
                                             const delaunay::Delaunay& delaunay);

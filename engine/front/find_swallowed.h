@@ -10,7 +10,7 @@
 
 namespace ccdt::front {
 
-/// Finds tetrahedra that contain a vertex which is a corner of none of them and of no face of the PLC. Such a vertex
+/// Finds tetrahedra that contain a vertex that is not a corner of any of them or of any face of the PLC. Such a vertex
 /// was overlooked: the tetrahedra fit each other, but they are constrained Delaunay only for the other vertices.
 ///
 /// \param tetrahedra  positively oriented; those with `ghost_vertex` are skipped

@@ -15,7 +15,7 @@ namespace ccdt::front {
 
 /// The vertices near a face: those joined to its corners by Delaunay edges or by edges of missing faces of the PLC. The
 /// apex above a face is nearly always one of them, because few edges of a constrained Delaunay tetrahedralization are
-/// neither.
+/// of neither kind.
 class NearVertices {
  public:
   /// \param codes  the Delaunay faces of the PLC by their codes; the others are `no_neighbor`
@@ -41,7 +41,7 @@ class NearVertices {
     return vertices_;
   }
 
-  /// The vertices near one more vertex that were not returned since the last face; valid until the next call.
+  /// The vertices near one more vertex, without those returned since the last face; valid until the next call.
   std::span<const std::uint32_t> more(std::uint32_t vertex) {
     vertices_.clear();
     add(vertex);

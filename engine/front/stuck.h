@@ -8,9 +8,9 @@
 
 namespace ccdt::front {
 
-/// The error that the vertices have no constrained Delaunay tetrahedralization, although their surface is protected.
+/// The error that the vertices have no constrained Delaunay tetrahedralization although their surface is protected.
 ///
-/// \param points  near the place, in grid units; none: not known
+/// \param points  near the place, in grid units; none if not known
 inline MeshError stuck_near(const char* what, const plc::Plc& plc, std::span<const Point3> points) {
   Place place{.file = plc.name};
   for (const Point3& p : points) place.points.push_back(as_array(plc.grid.to_world(p)));

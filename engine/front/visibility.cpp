@@ -7,7 +7,7 @@ namespace ccdt::front {
 namespace {
 
 /// Do filters prove that the line from p to the centroid of abc does not meet the inside of t? The line passes nearly
-/// all candidates at a distance, so the exact signs of coplanar points are not needed.
+/// all candidates at a distance, so coplanar points need no exact signs.
 bool surely_passes_by(const Corners& t, const Point3& p, const Point3& a, const Point3& b, const Point3& c) {
   int turns_seen = 0;  // a bit for each sign
   const auto add = [&](Sign turn) { turns_seen |= turn == Sign::plus ? 1 : turn == Sign::minus ? 2 : 0; };
@@ -21,7 +21,7 @@ bool surely_passes_by(const Corners& t, const Point3& p, const Point3& a, const 
          (side_of_p != Sign::unknown && side_of_p == orient3d_centroid_filter(*t[0], *t[1], *t[2], a, b, c));
 }
 
-/// The sides of the plane of s on which the corners of t lie.
+/// The sides of the plane of s that the corners of t are on.
 std::array<int, 3> sides_of(const Corners& s, const Corners& t) {
   std::array<int, 3> sides;
   for (int i = 0; i < 3; ++i) sides[i] = orient3d(*s[0], *s[1], *s[2], *t[i]);

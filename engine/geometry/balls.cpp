@@ -22,7 +22,7 @@ Ball smallest_ball(const std::array<Point3, 3>& triangle) {
   const Point3 height = to_c - (dot(to_c, along) / squared_length(along)) * along;
   const double height2 = squared_length(height);
   if (excess <= 0 || height2 == 0) return smallest_ball(a, b);
-  // On the way from the middle of ab toward c, the center is where a and c are equally far.
+  // The center is on the line from the middle of ab toward c, where a and c are equally far.
   const double shift = excess / (2 * height2);
   const double radius = std::sqrt(radius2 + shift * shift * height2);
   constexpr double rounding = 1e-15;

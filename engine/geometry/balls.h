@@ -8,8 +8,8 @@
 /// Circumcenters and smallest balls, in floating point.
 namespace ccdt {
 
-/// From a corner of a triangle to the center of the circle through all three. Infinite or not a number if they are on
-/// one line.
+/// The vector from a corner of a triangle to the center of its circumcircle. Infinite or not a number if the corners
+/// are on one line.
 ///
 /// \param u,v  from that corner to the others
 inline Point3 to_circumcenter(const Point3& u, const Point3& v) {

@@ -8,12 +8,12 @@ namespace ccdt {
 
 namespace {
 
-constexpr std::size_t boxes_at_once = 4096;  ///< of loops on several threads
+constexpr std::size_t boxes_per_batch = 4096;  ///< of loops on several threads
 
 std::vector<std::uint32_t> order_of(const RawVector<Box>& boxes) {
   // Twice the centers; finite boxes of the grid do not overflow.
   RawVector<Point3> centers(boxes.size());
-  parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { centers[i] = boxes[i].low + boxes[i].high; });
+  parallel_for(boxes.size(), boxes_per_batch, [&](std::size_t i) { centers[i] = boxes[i].low + boxes[i].high; });
   return morton_order(centers);
 }
 
@@ -21,17 +21,17 @@ std::vector<std::uint32_t> order_of(const RawVector<Box>& boxes) {
 
 BoxTree::BoxTree(RawVector<Box> boxes, const RawVector<double>& sizes) : items_(order_of(boxes)) {
   boxes_.resize(boxes.size()), sizes_.resize(sizes.size());
-  parallel_for(boxes.size(), boxes_at_once, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
-  parallel_for(sizes.size(), boxes_at_once, [&](std::size_t i) { sizes_[i] = sizes[items_[i]]; });
+  parallel_for(boxes.size(), boxes_per_batch, [&](std::size_t i) { boxes_[i] = boxes[items_[i]]; });
+  parallel_for(sizes.size(), boxes_per_batch, [&](std::size_t i) { sizes_[i] = sizes[items_[i]]; });
   while (std::size_t{leaf_count_} * leaf_size < items_.size()) leaf_count_ *= 2;
   nodes_.resize(std::size_t{leaf_count_} * 2);
-  parallel_for(leaf_count_, boxes_at_once, [&](std::size_t i) {
+  parallel_for(leaf_count_, boxes_per_batch, [&](std::size_t i) {
     const auto leaf = static_cast<std::uint32_t>(leaf_count_ + i);
     Box& all = nodes_[leaf] = empty_box;
     for (auto [place, end] = places_of(leaf); place < end; ++place) all = hull(all, boxes_[place]);
   });
   for (std::size_t level = leaf_count_ / 2; level >= 1; level /= 2)
-    parallel_for(level, boxes_at_once, [&](std::size_t i) {
+    parallel_for(level, boxes_per_batch, [&](std::size_t i) {
       const std::size_t node = level + i;
       nodes_[node] = hull(nodes_[2 * node], nodes_[2 * node + 1]);
     });

@@ -31,7 +31,7 @@ class BoxTree {
 
   std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_, sizes_, least_sizes_, places_); }
 
-  /// From now on, the item is also in this box.
+  /// Puts the item into this box as well, from now on.
   void enlarge(std::uint32_t item, const Box& box);
 
   /// Calls visit(item) for all items whose box meets the given box or line segment.
@@ -40,8 +40,8 @@ class BoxTree {
     if (!items_.empty() && nodes_[1].meets(shape)) descend(1, shape, visit);
   }
 
-  /// Calls holds(item) until it returns true, for the items whose `lower(box, size)` is below the bound, which `holds`
-  /// may lower. Boxes with a small lower bound come first. \return did some call?
+  /// Calls holds(item) until it returns true, for the items whose `lower(box, size)` is below the bound. `holds` may
+  /// lower the bound. Boxes with a small lower bound come first. \return did a call?
   ///
   /// \param lower  lower(box, size) is a lower bound for all items in the box of at least this size
   template <class Lower, class Holds>

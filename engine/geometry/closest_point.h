@@ -45,7 +45,7 @@ inline Point3 weighted_point(const std::array<double, 3>& weights, const std::ar
   return t[0] + (weights[1] * (t[1] - t[0]) + weights[2] * (t[2] - t[0]));
 }
 
-/// The squared distance of p from a triangle, or from a segment or a point as a degenerate one.
+/// The squared distance of p from a triangle, or from a segment or a point given as a degenerate triangle.
 inline double squared_distance(const std::array<Point3, 3>& triangle, const Point3& p) {
   return squared_length(weighted_point(closest_on_triangle(p, triangle), triangle) - p);
 }

@@ -71,12 +71,12 @@ using SeenTriangle = std::array<PlanePoint, 3>;
 
 /// Is p, on the line of an edge, beyond this end of it?
 bool is_beyond(const PlanePoint& end, const PlanePoint& other_end, const PlanePoint& p) {
-  // Both products have the same sign, so rounding does not change that of their sum.
+  // Both products have the same sign, so rounding does not change the sign of their sum.
   return (other_end[0] - end[0]) * (p[0] - end[0]) + (other_end[1] - end[1]) * (p[1] - end[1]) < 0;
 }
 
-/// Is the other triangle beyond the line of an edge of the one? It may have corners on that line, which are beyond one
-/// end of the edge, or common.
+/// Is the other triangle beyond the line of an edge of the first? It may have corners on that line if they are beyond
+/// one end of the edge, or common.
 bool divides(const SeenTriangle& one, const SeenTriangle& other, int common) {
   const int sense = orient_in_plane(one[0], one[1], one[2]);
   if (sense == 0) return false;
@@ -125,7 +125,7 @@ std::optional<Contact> meet_triangles(const Triangle& s, const Triangle& t) {
   return std::nullopt;
 }
 
-// Their intersection is convex and contains the common corner. If it contains more, it reaches the opposite edge of one
+// Their intersection is convex and contains the common corner. If it contains more, it reaches the opposite edge in one
 // of them.
 std::optional<Contact> meet_triangles_at_corner(const Triangle& s, const Triangle& t) {
   const int s1 = orient3d(t[0], t[1], t[2], s[1]), s2 = orient3d(t[0], t[1], t[2], s[2]);
@@ -160,7 +160,7 @@ std::optional<Contact> meet_segments(const Point3& p, const Point3& q, const Poi
   return meet_in_plane(dominant_axis(normal), p, q, a, b);
 }
 
-// The projection first: it rejects most points of the same plane, which are expensive for `orient3d`.
+// The projection is tested first: it rejects most points of the same plane, which are expensive for `orient3d`.
 bool is_on_triangle(int axis, const Point3& p, const Triangle& t) {
   return holds(axis, t, p) && orient3d(t[0], t[1], t[2], p) == 0;
 }

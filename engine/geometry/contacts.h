@@ -25,8 +25,8 @@ std::optional<Contact> meet_triangles(const std::array<Point3, 3>& s, const std:
 /// Where two triangles with only the common corner s[0] = t[0] meet elsewhere.
 std::optional<Contact> meet_triangles_at_corner(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t);
 
-/// Where two triangles meet in more than the corners that they have in common, up to two, the first of each, and the
-/// edge between these.
+/// Where two triangles meet besides their common corners and the edge between these. The common corners, up to two,
+/// come first in both.
 std::optional<Contact> meet_elsewhere(const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common);
 
 /// Where a segment from a corner of a triangle, t[0], meets the triangle elsewhere.
@@ -43,15 +43,15 @@ bool is_on_triangle(int axis, const Point3& p, const std::array<Point3, 3>& tria
 /// Is the point between the ends of the segment, in space, ends excluded?
 bool is_within_segment(const Point3& p, const Point3& a, const Point3& b);
 
-/// Does the line of an edge of one of two triangles, seen along an axis, divide the two, so that they share nothing but
+/// Seen along an axis, does the line of an edge of one of two triangles separate the two, so that they share only
 /// common corners? False does not mean that they meet.
 ///
-/// \param common  the number of corners that both have, up to two, the first of each
+/// \param common  the number of common corners, up to two, which come first in both
 bool are_apart_seen_along(int axis, const std::array<Point3, 3>& s, const std::array<Point3, 3>& t, int common);
 
 // ---- Steps of these ------------------------------------------------------------------------------------------------
 
-/// Turns two triangles, given by the ids of their corners, until those that both have are the first of each.
+/// Rotates the corners of two triangles, given by ids, until the common ones come first in both.
 ///
 /// \return  their number
 template <class Id>
@@ -74,17 +74,17 @@ int put_common_first(std::array<Id, 3>& s, std::array<Id, 3>& t) {
   return common;
 }
 
-/// The sides of a plane on which three points are: 1, 0 or -1.
+/// The sides of a plane that three points are on: 1, 0 or -1.
 using Sides = std::array<int, 3>;
 
-/// The sides of the plane of a triangle on which the corners of another one are.
+/// The sides of a triangle's plane that the corners of another triangle are on.
 Sides sides_of(const std::array<Point3, 3>& plane, const std::array<Point3, 3>& corners);
 
 constexpr bool are_on_one_side(const Sides& sides) {
   return sides[0] == sides[1] && sides[1] == sides[2] && sides[0] != 0;
 }
 
-/// Is the point where the line from p to q passes the plane of a triangle in the triangle?
+/// Does the line from p to q pass the plane of a triangle inside the triangle?
 bool passes_through(const Point3& p, const Point3& q, const std::array<Point3, 3>& triangle);
 
 }  // namespace ccdt

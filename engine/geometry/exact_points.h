@@ -8,13 +8,13 @@
 
 namespace ccdt {
 
-/// Where edges and planes of triangles meet, exactly. All triangles have corners that are multiples of the quantum, and
-/// integers here are measured in quanta: coordinates have 33 bits, normals 68 and offsets of planes 101.
+/// The exact points where edges and planes of triangles meet. All corners are multiples of the quantum, and integers
+/// here are measured in quanta: coordinates have 33 bits, normals 68, and offsets of planes 101.
 using Long = boost::multiprecision::int256_t;
 using VeryLong = boost::multiprecision::int512_t;
 
-/// A point with rational coordinates: numerator[i] / denominator. They have at most 238 and 208 bits, those of the
-/// point where three planes meet. The fractions need not be reduced.
+/// A point with rational coordinates: numerator[i] / denominator. These have at most 238 and 208 bits, where three
+/// planes meet. The fractions need not be reduced.
 struct ExactPoint {
   std::array<Long, 3> numerator;
   Long denominator = 1;  ///< positive
@@ -31,11 +31,11 @@ ExactPlane plane_of(const std::array<Point3, 3>& triangle);
 /// A vertex.
 ExactPoint exactly(const Point3& vertex);
 
-/// The point where the edge from p to q meets a plane that has its ends on different sides.
+/// The point where the edge from p to q meets a plane. The edge's ends are on different sides of the plane.
 ExactPoint meet_plane(const Point3& p, const Point3& q, const ExactPlane& plane);
 
-/// The point where the edge from p to q meets the line through a and b, which is in one plane with it and has its ends
-/// on different sides.
+/// The point where the edge from p to q meets the line through a and b. Both are in one plane, and the edge's ends are
+/// on different sides of the line.
 ///
 /// \param axis  not parallel to that plane
 ExactPoint meet_line(int axis, const Point3& p, const Point3& q, const Point3& a, const Point3& b);
@@ -46,7 +46,7 @@ ExactPoint meet_planes(const ExactPlane& a, const ExactPlane& b, const ExactPlan
 /// The side of the plane that the point is on: that of the normal (1), in it (0) or the other (-1).
 int side_of_plane(const ExactPlane& plane, const ExactPoint& p);
 
-/// On which side of the line from a to b is the point, seen along the axis? As `orient_along`.
+/// The side of the line from a to b that the point is on, seen along the axis; as in `orient_along`.
 int side_of_line(int axis, const Point3& a, const Point3& b, const ExactPoint& p);
 
 /// The sign of the difference of p and q along an axis.

@@ -13,8 +13,8 @@ namespace ccdt {
 /// The floating-point stage in front of the exact predicates, inline for the inner loops.
 ///
 /// Differences of coordinates are exact (grid.h), so the error of a determinant is a small multiple of 2^-53 times a
-/// product of the largest entries; and where the entries share enough trailing zero bits that every intermediate
-/// result fits 53 bits, as among the points of a lattice, there is no error at all, and a zero is a zero.
+/// product of the largest entries. If the entries share enough trailing zero bits that every intermediate result fits
+/// in 53 bits, as for points of a lattice, there is no error at all, and a zero is exact.
 enum class Sign : std::int8_t { minus = -1, zero = 0, plus = 1, unknown = 2 };
 
 // Four lanes, which the compiler maps to the registers of the processor. Always inlined, so never passed as arguments.
@@ -142,7 +142,7 @@ CCDT_ALWAYS_INLINE void find_volumes(const Lanes& x, const Lanes& y, const Lanes
   find_determinants(xy, z, result);
 }
 
-/// The lanes in which the first condition holds as bits 0 to 3, those of the second one as bits 4 to 7.
+/// The lanes where the first condition holds, as bits 0 to 3, and where the second one holds, as bits 4 to 7.
 CCDT_ALWAYS_INLINE unsigned lanes_of(const IntegerLanes& first, const IntegerLanes& second) {
   const IntegerLanes bits = (first & IntegerLanes{1, 2, 4, 8}) | (second & IntegerLanes{16, 32, 64, 128});
   return static_cast<unsigned>((bits[0] | bits[1]) | (bits[2] | bits[3]));
@@ -162,13 +162,13 @@ CCDT_ALWAYS_INLINE double largest_of_three(const Lanes& magnitudes) {
 
 }  // namespace filter
 
-/// Faces of a tetrahedron as bits: bit i is the face opposite to corner i.
+/// Faces of a tetrahedron as bits: bit i is the face opposite corner i.
 struct FacesAround {
   unsigned beyond;   ///< the point is certainly on their outer side
   unsigned unknown;  ///< the point may be in their plane
 };
 
-/// On which sides of the faces of the positively oriented abcd a point e is.
+/// Which sides of the faces of the positively oriented abcd a point e is on.
 ///
 /// \param a,b,c,d,e  x, y, z, and anything
 CCDT_ALWAYS_INLINE FacesAround faces_around_filter(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d,
@@ -176,7 +176,7 @@ CCDT_ALWAYS_INLINE FacesAround faces_around_filter(const Lanes& a, const Lanes& 
   const Lanes ra = a - e, rb = b - e, rc = c - e, rd = d - e;
   Lanes x, y, z, volume, m;
   filter::transpose(rb, rc, rd, ra, x, y, z);
-  filter::find_volumes(x, y, z, volume);  // bcd, cda, dab, abc: those of the faces opposite to a, b, c and d
+  filter::find_volumes(x, y, z, volume);  // bcd, cda, dab, abc: those of the faces opposite a, b, c and d
   filter::largest_magnitudes(ra, rb, rc, rd, m);
   const Lanes outward = volume * Lanes{-1, 1, -1, 1}, bound = Lanes{} + orient3d_error * (m[0] * m[1] * m[2]);
   const unsigned certain = filter::lanes_of(outward > bound, -outward > bound);
@@ -214,15 +214,15 @@ CCDT_ALWAYS_INLINE Sign insphere_filter(const Point3& a, const Point3& b, const 
   return Sign::unknown;
 }
 
-/// The circumspheres of a tetrahedron's neighbors as bits: bit i is that of the neighbor opposite to corner i.
+/// The circumspheres of a tetrahedron's neighbors as bits: bit i is that of the neighbor opposite corner i.
 struct SpheresAround {
   unsigned inside;   ///< the point is certainly inside
   unsigned on;       ///< the point is exactly on the sphere
   unsigned unknown;  ///< the point may be on the sphere
 };
 
-/// In which circumspheres of the neighbors of the positively oriented abcd a point e is. Each neighbor has three
-/// corners of abcd and one more: oa is that of the neighbor opposite to a.
+/// Which circumspheres of the neighbors of the positively oriented abcd a point e is in. Each neighbor has three
+/// corners of abcd and one more: oa is that of the neighbor opposite a.
 ///
 /// The lifted corners of each face span a plane; e is in the sphere if the lifted fourth corner is on one side of it.
 ///
@@ -263,8 +263,8 @@ CCDT_ALWAYS_INLINE SpheresAround spheres_around_filter(const Lanes& a, const Lan
   return {exact & wanted, (exact >> 4) & wanted, 0};
 }
 
-/// Sign of the sum of angles that `incircle` (predicates.cpp) is about. The axis is the one nearest to the normal of
-/// the plane.
+/// Sign that decides `incircle`, by the sum of two angles (see predicates.cpp). The axis is the one nearest to the
+/// normal of the plane.
 CCDT_ALWAYS_INLINE Sign incircle_filter(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = a - c, v = b - c, p = a - d, q = b - d, normal = cross(u, v);
   const double nx = std::fabs(normal.x), ny = std::fabs(normal.y), nz = std::fabs(normal.z);
@@ -283,12 +283,13 @@ CCDT_ALWAYS_INLINE Sign incircle_filter(const Point3& a, const Point3& b, const 
   const double area_c = area(u, v, area_c_size), area_d = area(q, p, area_d_size);
   const double product_c = product(u, v, product_c_size), product_d = product(p, q, product_d_size);
   const double det = product_c * area_d + area_c * product_d;
-  // Seven roundings in each product of a dot product, an area and the sum, rounded up for those of the bound.
+  // Seven roundings in each product of a dot product and an area, with the sum; rounded up for the roundings of the
+  // bound.
   constexpr double factor = 16 * 0x1p-53;
   const double bound = factor * (product_c_size * area_d_size + area_c_size * product_d_size);
   if (std::fabs(area_c) <= factor * area_c_size) return Sign::unknown;
   if (std::fabs(det) > bound) return (det > 0) == (area_c > 0) ? Sign::minus : Sign::plus;
-  return bound == 0 ? Sign::zero : Sign::unknown;  // without products there are no roundings
+  return bound == 0 ? Sign::zero : Sign::unknown;  // if all products are zero, there are no roundings
 }
 
 /// Sign of the sum of orient3d(p, q, r, x) over x = a, b, c: that of the centroid. Never `zero`.

@@ -24,7 +24,7 @@ Point3 DyadicGrid::to_world(const Point3& grid) const {
 
 DyadicGrid make_grid(std::span<const Point3> world) {
   const auto [low, high] = bounding_box(world);
-  // Halves before subtracting: the extent of finite coordinates may overflow.
+  // Halves before subtracting, since the extent of finite coordinates may overflow.
   const double half =
       world.empty() ? 0 : std::max({high.x / 2 - low.x / 2, high.y / 2 - low.y / 2, high.z / 2 - low.z / 2});
   int exponent = 0;

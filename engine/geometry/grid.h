@@ -8,9 +8,9 @@ namespace ccdt {
 
 /// The dyadic grid on which all coordinates of the engine live.
 ///
-/// With `2^e` the smallest power of two that is not less than the largest extent of the input's bounding box, the
-/// quantum is `q = 2^(e-32)` and the grid unit is `q * 2^-20 = 2^(e-52)`. Input vertices are rounded to multiples of
-/// the quantum, constructed points to multiples of the grid unit. Seen from the center of the box and measured in
+/// Let `2^e` be the smallest power of two that is not less than the largest extent of the input's bounding box. Then
+/// the quantum is `q = 2^(e-32)` and the grid unit is `q * 2^-20 = 2^(e-52)`. Input vertices are rounded to multiples
+/// of the quantum, constructed points to multiples of the grid unit. Seen from the center of the box and measured in
 /// grid units, every coordinate is an integer of at most 2^51 + 2^20 in magnitude: it fits a double, and so does the
 /// **difference of any two coordinates, exactly**.
 struct DyadicGrid {

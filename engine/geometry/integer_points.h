@@ -12,7 +12,7 @@
 namespace ccdt {
 
 /// Input vertices are multiples of the quantum, so they are integers of 33 bits when measured in quanta. Normals and
-/// planar orientations then fit 128 bits and need no filter.
+/// planar orientations then fit in 128 bits and need no filter.
 using Wide = Int128;
 
 using IntegerPoint = std::array<std::int64_t, 3>;
@@ -44,7 +44,7 @@ inline Wide height_over(const IntegerPoint& a, const WideVector& normal, const I
 /// The exact normal rounded to doubles; zero components stay zero and signs are exact.
 inline Point3 rounded_normal(const std::array<Point3, 3>& t) {
   const Point3 u = t[1] - t[0], v = t[2] - t[0];
-  // Of less than 2^31 quanta, differences of products have at most 63 bits.
+  // If edges are shorter than 2^31 quanta, differences of products have at most 63 bits.
   const auto is_short = [](const Point3& p) {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) < 0x1p31 * DyadicGrid::quantum;
   };

@@ -19,8 +19,8 @@ using WideInt = boost::multiprecision::number<
                                            boost::multiprecision::unchecked, void>,
     boost::multiprecision::et_off>;
 
-/// Differences to one point as integers, without the trailing zero bits that all of them share: the sign of a
-/// homogeneous determinant does not change.
+/// Differences from one point as integers, without the trailing zero bits that all of them share. This does not change
+/// the sign of a homogeneous determinant.
 template <int n>
 struct Differences {
   std::array<std::array<std::int64_t, 3>, n> row;
@@ -71,7 +71,7 @@ Result determinant3(const std::array<std::array<std::int64_t, 3>, 3>& m) {
   return Result(x) * m[2][0] + Result(y) * m[2][1] + Result(z) * m[2][2];
 }
 
-/// Its sign for up to 60 bits: the products of 128 and 64 bits are added up in two digits.
+/// Its sign for up to 60 bits: products of 128-bit and 64-bit numbers are added up in two digits.
 int determinant3_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 3>& m) {
   const std::array<Int128, 3> minor = first_minors<Int128>(m);
   Int128 first = 0, second = 0;
@@ -84,8 +84,8 @@ int determinant3_sign_in_digits(const std::array<std::array<std::int64_t, 3>, 3>
   return low_digit(first) != 0 ? 1 : 0;
 }
 
-/// The heights of four rows, that is, their squared lengths, and the volumes by which the insphere determinant
-/// multiplies them: it is the sum of height[i] * volume[i]. `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits + 3.
+/// The heights of four rows, that is, their squared lengths, and the volumes that multiply them in the insphere
+/// determinant, which is the sum of height[i] * volume[i]. `Minor` holds 2 * bits + 2 bits, `Volume` 3 * bits + 3.
 template <class Minor, class Volume>
 struct InsphereTerms {
   std::array<Minor, 4> height;
@@ -175,8 +175,8 @@ int orient3d_with(std::array<const Point3*, 4> corners, std::size_t i, const Poi
   return orient3d(*corners[0], *corners[1], *corners[2], *corners[3]);
 }
 
-/// Calls `coefficient(i)`, the sign with which the height of point i acts, in descending order of the ranks, until
-/// one is not zero.
+/// Calls `coefficient(i)`, the sign of the effect of raising point i, in descending order of ranks, until one is not
+/// zero.
 template <std::size_t n, class Coefficient>
 int first_nonzero(const std::array<std::uint32_t, n>& ranks, const Coefficient& coefficient) {
   std::uint64_t below = std::uint64_t{1} << 32;
@@ -239,9 +239,9 @@ int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const 
   return sign != 0 ? sign : insphere_tie(a, b, c, d, e, ranks);
 }
 
-// With e = sum of l_i p_i over a, b, c, d, e is inside when its height is below sum of l_i h_i: raising the height of a
-// corner acts with the sign of the volume in which e replaces that corner, raising that of e with the sign of minus the
-// whole volume.
+// Let e = sum of l_i p_i over a, b, c, d. Then e is inside if its height is below the sum of l_i h_i. So the effect of
+// raising a corner has the sign of the volume with e in place of that corner, and the effect of raising e has the sign
+// of minus the whole volume.
 int insphere_tie(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                  const std::array<std::uint32_t, 5>& ranks) {
   count_tie();
@@ -279,7 +279,7 @@ int incircle_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
 
 // d is inside when the angles at c and d over the chord ab add up to more than 180 degrees, that is, when the sine of
 // the sum is negative: sin(c + d) = sin c cos d + cos c sin d, with dot products for the cosines and signed areas for
-// the sines. As all areas are in one plane, those of the projection along an axis do.
+// the sines. Since all areas are in one plane, those of a projection along an axis will do.
 int incircle(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   if (const Sign sign = incircle_filter(a, b, c, d); sign != Sign::unknown) return static_cast<int>(sign);
   return incircle_exactly(a, b, c, d);
@@ -304,7 +304,7 @@ int orient3d_centroid(const Point3& p, const Point3& q, const Point3& r, const P
   if (sa <= 0 && sb <= 0 && sc <= 0) return -1;
   count_wide_evaluation();
   const WideInt<256> va = signed_volume(p, q, r, a), vb = signed_volume(p, q, r, b), vc = signed_volume(p, q, r, c);
-  // The centroid is moved toward b first, then, infinitely less, toward c.
+  // The centroid is moved toward b and, infinitely less, toward c.
   if (const int sign = sign_of(WideInt<256>(va + vb + vc)); sign != 0) return sign;
   if (const int sign = sign_of(WideInt<256>(vb - va)); sign != 0) return sign;
   return sign_of(WideInt<256>(vc - va));

@@ -36,12 +36,12 @@ int insphere_exactly(const Point3& a, const Point3& b, const Point3& c, const Po
 
 /// `insphere` without ties: a zero is decided by symbolic perturbation of the lifted heights. The height of the vertex
 /// with rank i is raised by epsilon_i, where the epsilon of a greater rank is infinitely larger than that of a smaller
-/// one. The points do not move. The result depends on nothing but points and ranks, so the Delaunay tetrahedralization
-/// is unique. Zero only if all five points are coplanar.
+/// one. The points do not move. The result depends only on points and ranks, so the Delaunay tetrahedralization is
+/// unique. Zero only if all five points are coplanar.
 ///
 /// Because of the raised heights, the cospherical vertex with the greatest rank is outside the sphere of the others.
 ///
-/// \param ranks  of a, b, c, d, e, pairwise different
+/// \param ranks  of a, b, c, d, e; distinct
 int insphere_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& d, const Point3& e,
                        const std::array<std::uint32_t, 5>& ranks);
 
@@ -57,7 +57,7 @@ int incircle(const Point3& a, const Point3& b, const Point3& c, const Point3& d)
 /// d is inside the circumcircle of abc. Decided by the same perturbed heights as `insphere_perturbed` (the apex has
 /// none), so that the constrained Delaunay triangulation of a facet agrees with the tetrahedralization. Never zero.
 ///
-/// \param ranks  of a, b, c, d, pairwise different
+/// \param ranks  of a, b, c, d; distinct
 int incircle_perturbed(const Point3& a, const Point3& b, const Point3& c, const Point3& apex, const Point3& d,
                        const std::array<std::uint32_t, 4>& ranks);
 

@@ -24,11 +24,11 @@ constexpr auto names_of(ImproveStop) {
 
 /// How often each change was made, and why improvement stopped.
 struct ImproveCounts {
-  std::uint64_t bad_cells = 0;  ///< before: cells that are not good enough
+  std::uint64_t bad_cells = 0;  ///< cells that were not good enough before
   std::uint64_t bad_cells_left = 0;
-  std::uint64_t removed_edges = 0;  ///< swaps 3-2, 4-4 and larger ones
+  std::uint64_t removed_edges = 0;  ///< 3-2 and 4-4 swaps, and larger ones
   std::uint64_t facet_flips = 0;    ///< of these, on facets
-  std::uint64_t removed_faces = 0;  ///< swaps 2-3 and larger ones
+  std::uint64_t removed_faces = 0;  ///< 2-3 swaps and larger ones
   std::uint64_t moved_vertices = 0;
   std::uint64_t inserted_vertices = 0;
   std::uint64_t collapsed_edges = 0;

@@ -22,7 +22,7 @@ struct VertexSurroundings {
   FacetId facet;  ///< the first
   bool several_facets = false;
   bool flat = true;      ///< all facets are exactly flat
-  bool crossed = false;  ///< a facet does not contain both of the first two segments
+  bool crossed = false;  ///< some facet lacks one of the first two segments
   std::uint32_t segment_count = 0;
   std::array<std::uint32_t, 2> segments{};  ///< the first two
 };

@@ -9,7 +9,7 @@
 namespace ccdt::improve {
 namespace {
 
-/// Reconnection takes long, so it is for cells whose quality is this many times below the target.
+/// Reconnection takes long, so it is used only for cells whose quality is this many times below the target.
 constexpr double reconnection_factor = 20;
 
 bool choose(std::uint64_t ImproveCounts::*count, Step& step) {
@@ -44,8 +44,8 @@ double quality_after(const CellComplex& x, const Step& step, CellId cell) {
                       place_after(x, step, v[3]));
 }
 
-/// Finds a better place for a vertex after the other moves of the step. Interior vertices first: those on the boundary
-/// slide only if that is not enough.
+/// Finds a better place for a vertex after the other moves of the step. Interior vertices come first: those on the
+/// boundary slide only if that is not enough.
 bool can_move(const CellComplex& x, const StepRules& rules, std::uint32_t vertex, Effort effort, PlanScratch& scratch,
               Step& step) {
   Freedom freedom;

@@ -41,20 +41,21 @@ struct BadCell {
   bool has_moved = false;      ///< its vertices have moved, but not far enough
 };
 
-/// After this many failed attempts, a cell is given up. More attempts would cost 50% more time to fix one more percent
+/// After this many failed attempts, a cell is given up. More attempts would take 50% more time to fix one more percent
 /// of the bad cells.
 constexpr int most_tries = 3;
 
-/// The mesh is changed at random around cells of lower quality that are left, and only around this many of them.
+/// The mesh is changed at random around the remaining cells of lower quality, at most this many of them.
 constexpr double very_bad = 0.01;
 constexpr std::size_t most_shaken = 16;
-/// How often, and how many edges and faces are tried at each corner of a cell: more in each round, then few again.
+/// How often this is done, and how many edges and faces are tried at each corner of a cell: more in each round, then
+/// few again.
 constexpr std::size_t shaking_rounds = 12;
 constexpr std::array shaking_tries = {10, 20, 40};
 
 /// How many cells are tried together: enough for many threads, few enough that most do not disturb each other.
 constexpr std::size_t window_length = 128;
-/// Fewer are not worth the trouble of several threads.
+/// Fewer are not worth several threads.
 constexpr std::size_t least_shared = 16;
 /// How many cells may wait until those near them have had their turn.
 constexpr std::size_t most_waiting = window_length;
@@ -182,7 +183,7 @@ void fill_window(const CellComplex& x, Window& window) {
     take(x, cells.queue[cells.next++], window);
 }
 
-/// Has something changed since the window was filled that the step was made for?
+/// Has something that the step depends on changed since the window was filled?
 bool is_disturbed(const CellComplex& x, const Step& step, const Window& window) {
   return have_changed(x, step.far_vertices, window.begin) ||
          std::ranges::any_of(window.changed_faces, [&](const Box& box) { return box.meets(step.space_taken); });
@@ -207,7 +208,7 @@ void find_steps(const CellComplex& x, const Task& task, Effort effort, Window& w
   });
 }
 
-/// Does what must be done in the order of the steps.
+/// Does the part of a step that must be done in order.
 void announce(CellComplex& x, Attempt& attempt, Window& window) {
   Step& step = attempt.step;
   if (step.kind == Step::Kind::change) {
@@ -220,7 +221,7 @@ void announce(CellComplex& x, Attempt& attempt, Window& window) {
   attempt.next_change = x.change_count() + 1;
 }
 
-/// \param worse  gets the cells that were good before
+/// \param worse  gets the cells that were good before and are now bad
 void make_move(CellComplex& x, const Move& move, std::vector<CellId>& worse) {
   const auto first = static_cast<std::ptrdiff_t>(worse.size());
   std::ranges::copy_if(move.star, std::back_inserter(worse), [&](CellId c) { return !is_bad(x, c); });
@@ -228,7 +229,7 @@ void make_move(CellComplex& x, const Move& move, std::vector<CellId>& worse) {
   worse.erase(std::remove_if(worse.begin() + first, worse.end(), [&](CellId c) { return !is_bad(x, c); }), worse.end());
 }
 
-/// Does the rest.
+/// Does the rest of a step.
 void make_step(CellComplex& x, Attempt& attempt) {
   Step& step = attempt.step;
   work_done += attempt.work;
@@ -239,7 +240,7 @@ void make_step(CellComplex& x, Attempt& attempt) {
   work_done.vertices_moved += step.move_count;
 }
 
-/// Each thread makes those that it found: it has their cells at hand.
+/// Each thread makes the steps that it found, whose cells are in its cache.
 void make_announced_steps(CellComplex& x, Window& window) {
   if (window.announced.size() < least_shared) {
     for (const std::uint32_t i : window.announced) make_step(x, window.attempts[i]);
@@ -265,7 +266,7 @@ void conclude(const CellComplex& x, const Task& task, Effort effort, BadCell& ba
   if (step.kind == Step::Kind::change) {
     ++(window.counts.*step.count);
     window.counts.facet_flips += !step.change.faces.empty();
-    // The qualities are asked of the change, whose memory is at hand.
+    // The qualities are read from the change, which is still in the cache.
     for (std::size_t i = 0; i < attempt.new_cells.size(); ++i)
       if (!(step.change.new_cells[i].quality >= x.goal().good())) add_bad(x, attempt.new_cells[i], cells.found);
     return;
@@ -286,8 +287,8 @@ void conclude(const CellComplex& x, const Task& task, Effort effort, BadCell& ba
   cells.found.push_back(bad);
 }
 
-/// Tries the cells of the window in their order. One that was disturbed by a change in the same window waits. So each
-/// step is found in the complex as it was before the window, and several threads can find them.
+/// Tries the cells of the window in order. A cell that was disturbed by a change in the same window waits. So each step
+/// is found in the complex as it was before the window, and several threads can find them.
 void try_window(CellComplex& x, const Task& task, Effort effort, Window& window) {
   const bool is_shared = window.finders.size() > 1 && window.trials.size() >= least_shared;
   if (is_shared) find_steps(x, task, effort, window);

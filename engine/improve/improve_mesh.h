@@ -19,10 +19,10 @@ namespace ccdt::improve {
 /// The goals of the options, as numbers to compare with.
 QualityGoal goal_of(const ImproveOptions& options);
 
-/// Improves the cells that are not good enough, the worst first: by swaps, by moving vertices, and where both are stuck
-/// by inserting and removing interior vertices. The worst of the new cells is always better than the worst of the
-/// replaced ones, and all are exactly positive. Cells whose surroundings have changed are tried again, until all are
-/// good enough, no change helps, or the time is up.
+/// Improves the cells that are not good enough, the worst first: by swaps, by moving vertices, and, where both are
+/// stuck, by inserting and removing interior vertices. The worst of the new cells is always better than the worst of
+/// the replaced ones, and all are exactly positive. Cells whose surroundings have changed are tried again, until all
+/// are good enough, no change helps, or the time is up.
 ///
 /// \param freedom  of the vertices that are not interior; empty: they stay
 ImproveCounts improve_cells(tets::CellComplex& complex, const std::vector<Freedom>& freedom,
@@ -36,13 +36,13 @@ struct ImproveInput {
   std::vector<std::uint32_t> facet_of_face;  ///< of each of the mesh's faces
   std::size_t first_steiner;                 ///< the least Steiner vertex
   std::size_t first_interior;                ///< the least interior vertex
-  /// The least vertex that was put inside a segment or a facet and may slide there whatever the options say.
+  /// The least vertex that was put inside a segment or a facet and may slide there regardless of the options.
   std::size_t first_sliding = std::numeric_limits<std::size_t>::max();
 };
 
 /// Removes Steiner vertices from a whole mesh (`SteinerRule`), then improves it (paper, section 5: edge-face swaps and
-/// smoothing). Its boundary, segments and facets stay what they are, with the vertices of the input where they are;
-/// `BoundaryRule::slide` and `first_sliding` say what may move on them.
+/// smoothing). Its boundary, segments, facets and input vertices stay where they are, except for what
+/// `BoundaryRule::slide` and `first_sliding` let move on them.
 ///
 /// \param points  the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
 /// \param mesh    without coordinates

@@ -43,7 +43,7 @@ bool keeps_constraints(const CellComplex& x, std::span<const CellId> cells, cons
   return std::ranges::all_of(cells, keeps_corners) && keeps_segments(x, cells, is_there);
 }
 
-/// The wanted quality of the cells around a new vertex, between that of the cell and the goal.
+/// The wanted quality of the cells around a new vertex: between the bad cell's quality and the goal.
 double wanted_quality(const tets::QualityGoal& goal, double least) {
   return std::max(least, 0.5 * (std::min(least, goal.first()) + goal.first()));
 }
@@ -63,7 +63,7 @@ bool plan_insertion(const CellComplex& x, CellId cell, double least, PlanScratch
     return cell_quality(goal, x.point(p), x.point(q), x.point(r), apex) < wanted;
   };
   double worst = 0;
-  std::size_t size = 1;  // of the cavity to which the hull belongs
+  std::size_t size = 1;  // of the cavity that the hull belongs to
   for (int round = 0; round < most_insertion_rounds; ++round) {
     if (!cavity.cells.grow(x, makes_a_bad_cell, 0, most_cavity_cells)) {
       if (round == 0) return false;

@@ -20,13 +20,13 @@ struct PlanScratch {
 };
 
 /// Plans to remove an interior vertex of a cell by collapsing one of the cell's edges onto the other end: the cells
-/// around the vertex without that end are joined to it instead.
+/// around the vertex that do not contain that end are joined to it instead.
 bool plan_collapse(const CellComplex& complex, CellId cell, double least, PlanScratch& scratch, Change& change);
 
-/// Plans to insert a vertex in place of a cell and of those of its neighbors that the new vertex can replace by better
-/// ones: the cavity grows across each face that would make a bad cell with the new vertex. The vertex then moves to the
-/// position where the worst of the new cells is best (after Klingner and Shewchuk 2007). An interior vertex inside the
-/// cavity is removed. The new cells are exactly positive.
+/// Plans to insert a vertex in place of a cell and of neighbors that it can replace by better cells: the cavity grows
+/// across each face that would make a bad cell with the new vertex. The vertex then moves to the position where the
+/// worst of the new cells is best (after Klingner and Shewchuk 2007). An interior vertex inside the cavity is removed.
+/// The new cells are exactly positive.
 bool plan_insertion(const CellComplex& x, CellId cell, double least, PlanScratch& cavity, Change& change);
 
 }  // namespace ccdt::improve

@@ -11,10 +11,11 @@ using tets::CellComplex, tets::cell_of, tets::has;
 
 namespace {
 
-/// The numbers of vertices at which new cells are searched for.
+/// New cells are searched for at these numbers of vertices.
 constexpr std::array<std::size_t, 3> sizes = {12, 18, 24};
 
-/// Adds the vertex that sees the most faces, and all cells between vertices that are there. \return is there one?
+/// Adds the vertex that sees the most faces, and all cells whose vertices are then all in the polyhedron. \return is
+/// there one?
 bool add_vertex(const CellComplex& x, ReconnectionScratch& polyhedron) {
   struct Apex {
     std::uint32_t vertex, faces;
@@ -40,7 +41,7 @@ bool add_vertex(const CellComplex& x, ReconnectionScratch& polyhedron) {
   });
   const std::uint32_t last = best->vertex;
   vertices.push_back(last);
-  // Cells without it are there already.
+  // Cells without the new vertex are there already.
   polyhedron.cells.grow(x, [&](std::uint32_t code) {
     if (x.is_wall(code)) return false;
     const std::uint32_t apex = x.apex_of(x.across(code));

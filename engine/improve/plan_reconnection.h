@@ -17,10 +17,10 @@ struct ReconnectionScratch {
   std::vector<std::uint64_t> edges;  ///< of the hull
 };
 
-/// Plans to replace the cells of a polyhedron around a bad cell by better ones with the same vertices: all at the same
-/// time, where no swap makes anything better (J. Liu, B. Chen, S. Sun: Small polyhedron reconnection for mesh
-/// improvement and its implementation based on advancing front technique, 2009). It tries larger and larger polyhedra.
-/// These have no vertex inside, and no face or segment that must stay.
+/// Plans to replace the cells of a polyhedron around a bad cell by better ones with the same vertices, all at once,
+/// where no single swap improves anything (J. Liu, B. Chen, S. Sun: Small polyhedron reconnection for mesh improvement
+/// and its implementation based on advancing front technique, 2009). It tries larger and larger polyhedra. These have
+/// no vertex inside, and no face or segment that must stay.
 ///
 /// \param least  all new cells are better than this
 /// \return       are there such cells?

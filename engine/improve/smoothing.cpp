@@ -15,7 +15,7 @@ namespace ccdt::improve {
 
 namespace {
 
-/// The weight of a surplus of 1 / r above its goal beside the quality of the star.
+/// The weight of a surplus of 1 / r above its goal, relative to the quality of the star.
 constexpr double surplus_weight = 4;
 
 // The following loops have no branches and no calls, so that compilers vectorize them.
@@ -59,7 +59,7 @@ void add_inverse_r(const ScaledStar& star, std::size_t i, const Point3& p, doubl
 }
 
 /// The sine at an edge of length l between faces of doubled areas F and G is det l / (F G). So its gradient is the sine
-/// times the sum of the gradients of the logarithms. Only det, which may be zero, is not taken by its logarithm.
+/// times the sum of the gradients of the logarithms. Only for det, which may be zero, the logarithm is avoided.
 void add_sines(const ScaledStar& star, std::size_t i, const Point3& p, double offset, double below,
                LinearModels& models) {
   const Point3 a = star.a[i], b = star.b[i], c = star.c[i], normal = star.normal[i];
@@ -82,7 +82,7 @@ void add_sines(const ScaledStar& star, std::size_t i, const Point3& p, double of
   add(squared_length(a - c) * fb * fd, [&] { return by_fb; });
 }
 
-/// The quality of a star, as that of a cell, from the least 1 / r, shape(), and the least sine, sine().
+/// The quality of a star, defined like that of a cell, from the least 1 / r, shape(), and the least sine, sine().
 template <class Shape, class Sine>
 double quality_by(const QualityGoal& goal, const Shape& shape, const Sine& sine) {
   if (goal.is_of_r())
@@ -161,7 +161,7 @@ void model_star(const QualityGoal& goal, const Point3& x, double least, double r
 
 namespace {
 
-/// At most four gradients in space are affinely independent. A fifth joins before another leaves.
+/// At most four gradients in space are affinely independent. A fifth is added before another is dropped.
 constexpr int most_in_support = 5;
 
 /// Models with their weights in the combination: the weights are positive, and their sum is 1.
@@ -260,7 +260,7 @@ Lowest find_lowest(const LinearModels& models, const Point3& step) {
 
 ProximalStep proximal_step(const LinearModels& models, double length) {
   constexpr int most_rounds = 16;
-  constexpr double enough = 0.02;  // share of the gain that may be missing
+  constexpr double enough = 0.02;  // share of the gain that may be missed
   Lowest lowest = find_lowest(models, {});
   const double now = lowest.value;
   Support support;
@@ -417,8 +417,8 @@ double move_apex(std::span<const StarFace> faces, const QualityGoal& goal, const
   if (largest_of(place) > largest_coordinate) return worst;
   const double there = worst_of_star(faces, goal, place);
   if (!(there > worst) || !all_positive(faces, place)) return worst;
-  // Otherwise a worst tetrahedron that can hardly be improved would, step by step, drag all tetrahedra around it down
-  // to its level.
+  // Otherwise a bad tetrahedron that can hardly be improved would, step by step, drag all tetrahedra around it down to
+  // its level.
   if (there < worthwhile * worst && count_bad(faces, goal, place) > count_bad(faces, goal, apex)) return worst;
   apex = place;
   return there;

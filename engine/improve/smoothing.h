@@ -43,7 +43,7 @@ struct ScaledStar {
   Coordinates normal;          ///< (b - a) x (c - a)
   Coordinates centroid;        ///< of a face
   std::vector<double> height;  ///< normal . a
-  /// Mean square of the six edges of the tetrahedron, without the part that depends on the apex.
+  /// Mean squared length of the six edges of the tetrahedron, without the part that depends on the apex.
   std::vector<double> mean_square;
   std::vector<double> inverse_area;     ///< 1 / normal^2
   std::vector<double> inverse_r, sine;  ///< of the tetrahedra, for the last computed apex
@@ -51,7 +51,7 @@ struct ScaledStar {
   std::size_t size() const { return height.size(); }
 };
 
-/// Functions of the position of the apex near a point, each by its value and gradient there.
+/// Functions of the apex's position near a point, each given by its value and gradient there.
 struct LinearModels {
   std::vector<double> value;
   Coordinates gradient;
@@ -65,12 +65,12 @@ struct LinearModels {
 void load_star(std::span<const StarFace> faces, const Point3& apex, ScaledStar& star);
 
 /// The quality of the worst tetrahedron with the apex at `x`; see `cell_quality`. Leaves `inverse_r` and `sine` for `x`
-/// in the star, as far as they matter.
+/// in the star, where they matter.
 double least_quality(const QualityGoal& goal, const Point3& x, ScaledStar& star);
 
 /// Models the functions whose least value is the quality of the star: each tetrahedron's 1 / r as long as one of them
-/// is below the goal, else the sines of all dihedral angles. Where angles decide, a 1 / r that has reached its goal
-/// must not fall back: its surplus, on top of the star's quality, is one more function.
+/// is below the goal, otherwise the sines of all dihedral angles. Where angles decide, a 1 / r that has reached its
+/// goal must not drop below it again: its surplus, on top of the star's quality, is another function.
 ///
 /// \param least   `least_quality` at `x`, which must have been the last call for this star
 /// \param models  of those functions that are less than the star's quality + `reach`, in undefined order
@@ -84,7 +84,7 @@ struct ProximalStep {
 };
 
 /// The step s that maximizes the least of the models minus s^2 / (2 `length`): a proximal point. The step is `length`
-/// times a convex combination of gradients, which solves the dual problem. If only models of one value matter, it is
+/// times a convex combination of gradients, which solves the dual problem. If only models of equal value matter, it is
 /// their combination of least norm, the direction of steepest ascent.
 ///
 /// \param models  at least one
@@ -98,7 +98,7 @@ struct MoveScratch {
 
 /// Moves the apex of a star to a position where the worst of its tetrahedra is better: to the mean of the star's
 /// vertices if that makes all good enough, otherwise by ascent on the non-smooth minimum of their qualities (Freitag
-/// and Ollivier-Gooch 1997), in steps that take the values of nearby functions into account as well as their gradients
+/// and Ollivier-Gooch 1997). Its steps consider both the values and the gradients of nearby functions
 /// (`proximal_step`). The new place has integer coordinates, and all tetrahedra are exactly positive there. For a gain
 /// of a few percent, no more of them may be below the goal than before.
 ///

@@ -27,7 +27,7 @@ class ByteScanner {
     return number_at<Number>(take(item, sizeof(Number)), big_endian_);
   }
 
-  /// A finite coordinate of single or double precision.
+  /// A finite coordinate in single or double precision.
   template <class Real>
   double coordinate(const Item& item) {
     const double value = static_cast<double>(next<Real>(item));
@@ -45,7 +45,7 @@ class ByteScanner {
   int attribute(const Item& item) {
     const Integer value = next<Integer>(item);
     if (!std::in_range<int>(value))
-      fail(item, std::to_string(value) + " does not fit 32 bits", "use smaller numbers for regions and markers");
+      fail(item, std::to_string(value) + " does not fit in 32 bits", "use smaller numbers for regions and markers");
     return static_cast<int>(value);
   }
 

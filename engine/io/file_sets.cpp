@@ -11,8 +11,8 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
-/// Does TetGen's file leave its vertices to the .node beside it? Then its first number, their count, is 0. Only the
-/// beginning of the file is read.
+/// Does a TetGen file leave its vertices to the .node beside it? If so, its first number, the vertex count, is 0. Only
+/// the beginning of the file is read.
 bool has_no_vertices(const std::filesystem::path& file) {
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {

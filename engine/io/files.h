@@ -27,7 +27,7 @@ struct FileBytes {
 
 bool is_there(const std::filesystem::path& file);
 
-/// Does the file exist in the folder or below it, wherever links lead?
+/// Does the file exist in the folder or below it, after following links?
 bool is_within(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 /// \throw InputError  no such file, a folder, or not a regular file
@@ -42,7 +42,7 @@ FileBytes read_whole_file(const std::filesystem::path& file);
 /// The extension of a file's name in lower case, with its dot.
 std::string lower_ending(const std::filesystem::path& file);
 
-/// The place of an error of which only the file is known.
+/// The place of an error if only the file is known.
 inline Place place_in(std::string file) {
   return {.file = std::move(file)};
 }
@@ -50,7 +50,7 @@ inline Place place_in(std::string file) {
 /// The line end of a text: a line feed, or a carriage return if there is no line feed at all.
 char line_end_of(std::string_view text);
 
-/// The place of the line of a text in which a byte is.
+/// The place of the line of a text that contains a byte.
 Place line_of_byte(const FileBytes& file, std::size_t byte);
 
 /// Throws an InputError at an offset of a binary file.
@@ -105,7 +105,7 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Writes what a `TextBuffer` takes.
+  /// Writes anything that a `TextBuffer` takes.
   template <class T>
   OutputFile& operator<<(const T& value) {
     buffer_ << value;

@@ -46,12 +46,12 @@ bool has_loose_vertex(const plc::InputPlc& plc) {
   return std::find(used.begin(), used.end(), false) != used.end();
 }
 
-/// The reason why the format cannot hold a facet of polygons; empty if it can.
+/// Why the format cannot hold a facet made of polygons; empty if it can.
 std::string objection(const plc::PolygonFacet& facet, const PlcFormat& format) {
   if (!format.limits.several_polygons && (facet.polygons.size() != 1 || !facet.holes.empty()))
-    return "facets with holes or of several polygons";
+    return "facets with holes or several polygons";
   for (const auto& polygon : facet.polygons) {
-    if (!format.limits.several_polygons && polygon.size() < 3) return "facets of fewer than three corners";
+    if (!format.limits.several_polygons && polygon.size() < 3) return "facets with fewer than three corners";
     if (polygon.size() > format.limits.most_corners)
       return "facets of more than " + std::to_string(format.limits.most_corners) + " corners";
   }
@@ -77,7 +77,7 @@ void check_format_holds(const plc::InputPlc& plc, const PlcFormat& format, const
 
 struct TetMeshFormat {
   std::string_view ending;
-  mesh::TetMesh (*read)(const FileBytes&) = nullptr;  ///< null: TetGen's, of several files
+  mesh::TetMesh (*read)(const FileBytes&) = nullptr;  ///< null for TetGen's format, which has several files
   void (*write)(const mesh::TetMesh&, OutputFile&) = nullptr;
 };
 
@@ -102,7 +102,7 @@ const Format* format_of(const std::filesystem::path& file, const Format (&format
   return format == std::end(formats) ? nullptr : format;
 }
 
-/// The ending of the format whose keyword the file begins with; empty: the formats without one.
+/// The ending of the format whose keyword the file begins with; empty for formats without a keyword.
 std::string_view ending_shown_by(const FileBytes& file) {
   TextScanner in(file);
   const std::string_view first = in.peek();

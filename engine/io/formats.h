@@ -56,7 +56,7 @@ void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out);
 /// Writes .node, .ele, .face and .edge (even empty ones, so that no file of an older mesh remains).
 void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
-/// Adds a facet with one loop: a triangle, a polygon, or, of two corners, a segment. One corner adds nothing.
+/// Adds a facet with one loop: a triangle, a polygon, or (if it has two corners) a segment. One corner adds nothing.
 void add_facet(plc::InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t number);
 
 /// Call it after adding all facets: it drops numbers that equal the indices, and markers that are all 0.

@@ -250,7 +250,7 @@ class GmshReader {
     markers.push_back(marker);
   }
 
-  /// Gmsh's nodes have any positive numbers, mostly but not always 1, 2, 3, ...
+  /// Gmsh's nodes may have any positive numbers, usually 1, 2, 3, ...
   void add_node(const Item& item, std::int64_t tag, std::size_t index) {
     if (other_tags_.empty() && index == consecutive_tags_ && tag == static_cast<std::int64_t>(index) + 1)
       ++consecutive_tags_;

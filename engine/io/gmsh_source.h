@@ -5,8 +5,8 @@
 
 namespace ccdt::io {
 
-/// The numbers of a section of a Gmsh file, which are the same in text and in binary: Gmsh's integers have 32 bits in
-/// binary, its sizes 64. The names of the sections, and what is before the first one, are always text.
+/// The numbers of a section of a Gmsh file, which are the same in text and in binary: in binary, Gmsh's integers have
+/// 32 bits and its sizes 64. The names of sections, and everything before the first one, are always text.
 class GmshSource {
  public:
   explicit GmshSource(const FileBytes& file) : text_(file, TextScanner::no_comments), bytes_(file), file_(file) {}
@@ -34,7 +34,7 @@ class GmshSource {
   void end_numbers() {
     if (binary_) text_.move_to(bytes_.position());
   }
-  /// Skips the rest of the line in text, where nothing is needed.
+  /// In text, skips the rest of the line, where nothing is needed.
   void skip_line() {
     if (!binary_) text_.skip_line();
   }
@@ -54,11 +54,11 @@ class GmshSource {
     if (binary_) return bytes_.skip(item, count * sizeof(double));
     for (std::size_t k = 0; k < count; ++k) text_.word(item);
   }
-  /// How many of something follow, with the least that each needs in text and in binary.
+  /// Reads how many items follow, given the least size of each in text and in binary.
   std::size_t count(const Item& item, std::size_t least_characters_each, std::size_t least_bytes_each) {
     return binary_ ? bytes_.count<std::int64_t>(item, least_bytes_each) : text_.count(item, least_characters_each);
   }
-  /// The same of a count that has 32 bits in binary.
+  /// The same for a count that has 32 bits in binary.
   std::size_t short_count(const Item& item, std::size_t least_characters_each, std::size_t least_bytes_each) {
     return binary_ ? bytes_.count<std::int32_t>(item, least_bytes_each) : text_.count(item, least_characters_each);
   }

@@ -9,8 +9,8 @@ namespace ccdt::io {
 
 namespace {
 
-/// Lines "number type 2 physical elementary nodes...". The physical tag is the marker as it is; the elementary tag,
-/// which Gmsh wants positive, numbers the different markers.
+/// Lines "number type 2 physical elementary nodes...". The physical tag is the marker itself; the elementary tag, which
+/// Gmsh wants positive, numbers the different markers.
 template <std::size_t Corners>
 void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& elements, const std::vector<int>& markers,
                     std::int64_t type, std::size_t& number, OutputFile& out) {
@@ -46,8 +46,8 @@ OutputFile& put_size(std::size_t value, OutputFile& out) {
   return out.raw(static_cast<std::uint64_t>(value));
 }
 
-/// "tag box physical-tags bounding-entities" for each entity, numbered from 1. All have the box of the whole mesh. The
-/// marker 0 is no physical tag.
+/// "tag box physical-tags bounding-entities" for each entity, numbered from 1. All have the box of the whole mesh. A
+/// marker of 0 is not a physical tag.
 void write_entities(const Entities& entities, const Box& box, OutputFile& out) {
   std::int32_t tag = 0;
   for (const auto& [marker, elements] : entities) {

@@ -41,7 +41,7 @@ void read_elements(TextScanner& in, const Item& item, std::size_t vertices,
   });
 }
 
-/// \param with_tetrahedra  false: they are skipped, like every section that is not listed above
+/// \param with_tetrahedra  if false, they are skipped, like every section not listed above
 MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   MeditFile medit;
   mesh::TetMesh& mesh = medit.mesh;
@@ -76,8 +76,8 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
       in.fail("keyword", "expected a keyword, found " + in_quotes(keyword));
     }
   }
-  // Some programs leave out 'End'. The counts tell that the sections are whole; the line break, that the last number
-  // is.
+  // Some programs leave out 'End'. The counts show that the sections are complete, and the line break shows that the
+  // last number is.
   const bool has_elements = with_tetrahedra ? !mesh.tetrahedra.empty() : medit.has_facets() || skips_tetrahedra;
   const bool is_whole = has_elements && file.bytes.back() == line_end_of(file.bytes);
   if (!ended && !is_whole) in.fail_truncated("keyword 'End'");

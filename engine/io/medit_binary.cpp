@@ -1,6 +1,6 @@
 // Medit's binary format, .meshb, as the library libMeshb defines it: the number 1, which shows the byte order, the
-// version, and then sections "keyword, byte of the next keyword, contents" up to the keyword End. A version says how
-// wide the numbers are.
+// version, and then sections "keyword, byte of the next keyword, contents" up to the keyword End. The version
+// determines the width of the numbers.
 
 #include <algorithm>
 #include <limits>
@@ -44,7 +44,7 @@ class MeditReader {
  public:
   explicit MeditReader(const FileBytes& file) : size_(file.bytes.size()), in_(file) {}
 
-  /// \param with_tetrahedra  false: they are skipped
+  /// \param with_tetrahedra  if false, they are skipped
   MeditFile read(bool with_tetrahedra) {
     read_head();
     while (true) {
@@ -174,7 +174,7 @@ class MeditReader {
 
 class MeditWriter {
  public:
-  /// \param surface  null, or has quadrilaterals besides the mesh, which is its own
+  /// \param surface  null, or the file that `mesh` belongs to, which may also have quadrilaterals
   MeditWriter(const mesh::TetMesh& mesh, const MeditFile* surface, OutputFile& out)
       : mesh_(mesh), surface_(surface), out_(out) {
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
@@ -208,7 +208,7 @@ class MeditWriter {
   std::size_t quadrilaterals() const { return surface_ ? surface_->quadrilaterals.size() : 0; }
   std::size_t dimension_size() const { return 8 + version_.position(); }
 
-  /// Or a little more: sections without elements are not written.
+  /// The size or a little more, since sections without elements are not written.
   std::size_t file_size() const {
     return 1000 + mesh_.vertices.size() * version_.vertex() + mesh_.edges.size() * version_.element(2) +
            mesh_.faces.size() * version_.element(3) +

@@ -12,7 +12,7 @@
 
 namespace ccdt::io {
 
-/// The coordinates of a point bit for bit: of single precision (Bits of 32 bits) or double precision (of 64).
+/// The coordinates of a point bit for bit: in single precision (Bits has 32 bits) or double precision (64 bits).
 template <class Bits>
 using PointBits = std::array<Bits, 3>;
 
@@ -21,7 +21,7 @@ struct PointBitsTraits {
   static constexpr PointBits<Bits> none() { return {~Bits{0}, ~Bits{0}, ~Bits{0}}; }  // a NaN, which no point has
   static std::size_t hash(const PointBits<Bits>& key) {
     std::uint64_t h = 0;
-    for (const Bits bits : key) {  // coordinates often end with zeros, so the high bits have to come down
+    for (const Bits bits : key) {  // coordinates often end in zeros, so the high bits must be mixed into the low ones
       h = (h ^ bits) * 0xff51afd7ed558ccdull;
       h ^= h >> 32;
     }
@@ -40,16 +40,16 @@ class VertexMerger {
 
   explicit VertexMerger(std::vector<Point3>& vertices) : vertices_(vertices) {}
 
-  /// Prepares for about this many different points.
+  /// Prepares for about this many distinct points.
   void reserve(std::size_t points) {
     vertices_.reserve(points);
     indices_.reserve(points);
   }
 
-  /// The index of the point in the list, to which it is added if it is new.
+  /// The index of the point in the list. A new point is added.
   std::uint32_t index_of(const Corner& corner) { return index_of(corner, bits_of(corner)); }
 
-  /// The indices of many points. The table is large and the points are anywhere in it, so all places are prefetched
+  /// The indices of many points. The table is large and the points are scattered in it, so all places are prefetched
   /// before the first one is read.
   void indices_of(std::span<const Corner> corners, std::span<std::uint32_t> indices) {
     for (const Corner& corner : corners) indices_.prefetch(bits_of(corner));

@@ -24,8 +24,8 @@ std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertic
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
 }
 
-/// Groups become markers: a name that is a whole number is the marker itself; other names get the unused numbers from
-/// 1, in the order of their appearance. Facets before the first group have the marker 0.
+/// Groups become markers: a name that is a whole number is the marker itself; other names get the unused numbers from 1
+/// up, in order of appearance. Facets before the first group have the marker 0.
 class Groups {
  public:
   Groups() : names_{"0"} {}
@@ -82,7 +82,7 @@ plc::InputPlc read_obj(const FileBytes& file) {
     } else if (keyword == "g" || keyword == "o") {
       groups.enter(in.rest_of_line());
     } else {
-      while (!in.at_line_end()) in.word("statement");  // a joined line is one line
+      while (!in.at_line_end()) in.word("statement");  // joined lines count as one
       in.skip_line();
     }
   }

@@ -11,7 +11,7 @@ bool is_plc_file(const std::filesystem::path& file);
 
 /// Reads a surface or a piecewise linear complex. The extension determines the format: .stl (text and binary,
 /// distinguished by content), .off, .obj, .ply (text and binary), .poly, .smesh, .node (TetGen), .mesh (Medit, text)
-/// and .meshb (Medit, binary). But a file that begins with the keyword of another format is read as that.
+/// and .meshb (Medit, binary). But a file that begins with another format's keyword is read in that format.
 ///
 /// \throw InputError  no such file, a folder, unknown extension, empty, truncated, malformed, NaN or infinite
 ///                    coordinates, index out of range, counts that contradict the size of the file; with file, line or

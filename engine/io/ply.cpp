@@ -43,7 +43,7 @@ struct Element {
   std::vector<Property> properties;
 };
 
-/// The others are skipped.
+/// Other elements are skipped.
 bool is_read(const Element& element) {
   return element.name == "vertex" || element.name == "face" || element.name == "tristrips";
 }
@@ -119,7 +119,7 @@ Header read_header(const FileBytes& file) {
   return header;
 }
 
-/// Do the counts fit into the size of the file? Tested before anything is allocated.
+/// Are the counts possible for the size of the file? Tested before anything is allocated.
 void check_counts(const FileBytes& file, const Header& header) {
   std::size_t needed = 0;
   for (const Element& element : header.elements) {
@@ -237,7 +237,7 @@ void read_face(Values& values, const Element& element, const Item& facet, std::s
         corner = corner_at(values, facet, values.whole(*property.type, facet), vertices);
     } else if (property.name == "marker" && !property.list_count && !property.type->is_real) {
       const std::int64_t value = values.whole(*property.type, facet);
-      if (value < INT_MIN || value > INT_MAX) values.fail(facet, "its marker does not fit 32 bits");
+      if (value < INT_MIN || value > INT_MAX) values.fail(facet, "its marker does not fit in 32 bits");
       marker = static_cast<int>(value);
     } else {
       skip_property(values, property, facet);
@@ -246,8 +246,8 @@ void read_face(Values& values, const Element& element, const Item& facet, std::s
   add_facet(plc, corners, marker, static_cast<std::size_t>(facet.number));
 }
 
-/// Strips of triangles, one after the other: each corner makes a triangle with the two before it, every second one
-/// turned. -1 begins a new strip.
+/// Strips of triangles, one after another: each corner makes a triangle with the two before it; every second triangle
+/// is turned. -1 begins a new strip.
 void read_strips(Values& values, const Element& element, const Item& item, std::size_t vertices, plc::InputPlc& plc) {
   for (const Property& property : element.properties) {
     if (!is_corner_list(property)) {

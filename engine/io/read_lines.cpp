@@ -11,7 +11,7 @@ std::vector<LineBlock> cut_lines(std::string_view text, char line_end, std::size
   while (found < lines) {
     const std::size_t begin = ends.size() * length;
     if (begin >= text.size()) return {};
-    // About as many bytes as the lines that are left need, if these are like those before.
+    // About as many bytes as the remaining lines need if they are like the ones before.
     const std::size_t wanted = found == 0 ? 1 : (lines - found) * ends.size() / found + 1;
     const std::string_view some = text.substr(begin, wanted * length);
     for (const std::size_t count : parallel_chunks(some.size(), length, [&](std::size_t from, std::size_t to) {

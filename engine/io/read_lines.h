@@ -20,12 +20,12 @@ struct LineBlock {
 };
 
 /// Finds the first lines of a text, on several threads.
-/// \return  none if there are not so many line ends
+/// \return  none if there are fewer line ends
 std::vector<LineBlock> cut_lines(std::string_view text, char line_end, std::size_t lines);
 
-/// Reads items on several threads if each is on a line of its own.
+/// Reads items on several threads if each is on its own line.
 ///
-/// \param in    before the line of the first item; then after that of the last
+/// \param in    is before the first item's line; then is after the last item's line
 /// \param read  `read(in, i)` reads item i, or its whole line. The calls are in any order, and some may fail.
 /// \return  false: nothing was read. There are few items or one thread, or some line is not as expected.
 template <class Read>
@@ -64,7 +64,7 @@ bool read_lines_together(TextScanner& in, std::size_t count, const Read& read) {
   return true;
 }
 
-/// Reads items, on several threads if each is on a line of its own. The result and the errors are the same.
+/// Reads items, on several threads if each is on its own line. The result and the errors are the same.
 template <class Read>
 void read_lines(TextScanner& in, std::size_t count, const Read& read) {
   if (read_lines_together(in, count, read)) return;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* scalar_remedy = "write one size per vertex: the target edge length there";
 
-/// The file to which the sizes belong: the first of these beside it.
+/// The file that the sizes belong to: the first of these beside it.
 std::filesystem::path background_of(const std::filesystem::path& file, std::initializer_list<const char*> endings,
                                     const std::string& names) {
   for (const char* ending : endings)
@@ -20,7 +20,7 @@ std::filesystem::path background_of(const std::filesystem::path& file, std::init
                    place_in(file.string()), "put the mesh of the sizes beside this file, under the same name");
 }
 
-/// Reads the number of sizes, which must be that of vertices.
+/// Reads the number of sizes, which must equal the number of vertices.
 void read_count(TextScanner& in, const sizes::BackgroundSizes& background) {
   const Item item = "number of sizes";
   const std::size_t count = in.count(item, 2), vertices = background.vertices.size();
@@ -28,7 +28,7 @@ void read_count(TextScanner& in, const sizes::BackgroundSizes& background) {
     in.fail(item,
             "there are " + std::to_string(count) + ", but " + background.mesh_name + " has " +
                 std::to_string(vertices) + " vertices",
-            "put the sizes beside the mesh for which they were made");
+            "put the sizes beside the mesh that they were made for");
   if (count == 0) in.fail(item, "there is no size", "give the size function at one or more vertices");
 }
 

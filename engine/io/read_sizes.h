@@ -6,11 +6,11 @@
 
 namespace ccdt::io {
 
-/// Reads a size function: the target edge length at each vertex of a background, which has the same name with another
-/// ending.
+/// Reads a size function: the target edge length at each vertex of a background mesh, whose file has the same name with
+/// another ending.
 ///
 ///     .sol  Medit, ASCII, one scalar per vertex: vertices and tetrahedra (if any) of the .mesh beside it
-///     .mtr  TetGen, one value per vertex: vertices of the .node, .poly or .smesh beside it, the first that there is;
+///     .mtr  TetGen, one value per vertex: vertices of the first .node, .poly or .smesh found beside it;
 ///           tetrahedra of the .ele that belongs to the .node (if any)
 ///
 /// \throw InputError  unknown extension, unreadable, no background beside it, a wrong number of vertices, not one

@@ -33,7 +33,7 @@ bool looks_like_text(const FileBytes& file) {
 bool has_binary_size(const FileBytes& file) {
   if (file.bytes.size() < header_size) return false;
   const std::size_t needed = header_size + facet_size * claimed_facets(file);
-  // Some writers pad the end; a further facet would be lost data.
+  // Some writers pad the end, but a whole further facet would be lost data.
   return file.bytes.size() >= needed && file.bytes.size() - needed < facet_size;
 }
 
@@ -70,16 +70,16 @@ void read_corners(const FileBytes& file, std::size_t facet, std::span<Corner, 3>
 }
 
 plc::InputPlc read_binary(const FileBytes& file) {
-  constexpr std::size_t facets_at_once = 32;
+  constexpr std::size_t facets_per_batch = 32;
   const std::size_t count = claimed_facets(file);
   plc::InputPlc plc;
   plc.triangles.resize(count);
   VertexMerger<float> merger(plc.vertices);
-  merger.reserve(count / 2);  // as a closed surface has, by Euler's formula
-  std::array<Corner, 3 * facets_at_once> corners;
-  std::array<std::uint32_t, 3 * facets_at_once> indices;
-  for (std::size_t first = 0; first < count; first += facets_at_once) {
-    const std::size_t facets = std::min(facets_at_once, count - first);
+  merger.reserve(count / 2);  // as in a closed surface, by Euler's formula
+  std::array<Corner, 3 * facets_per_batch> corners;
+  std::array<std::uint32_t, 3 * facets_per_batch> indices;
+  for (std::size_t first = 0; first < count; first += facets_per_batch) {
+    const std::size_t facets = std::min(facets_per_batch, count - first);
     for (std::size_t i = 0; i < facets; ++i)
       read_corners(file, first + i, std::span<Corner, 3>(corners.data() + 3 * i, 3));
     merger.indices_of(std::span(corners.data(), 3 * facets), indices);
@@ -180,7 +180,7 @@ plc::InputPlc read_stl(const FileBytes& file) {
 void write_stl(const plc::InputPlc& plc, OutputFile& out) {
   for (const Point3& p : plc.vertices)
     if (std::fabs(p.x) > FLT_MAX || std::fabs(p.y) > FLT_MAX || std::fabs(p.z) > FLT_MAX)
-      throw OutputError("STL holds numbers of single precision; a coordinate is too large", {.points = {as_array(p)}},
+      throw OutputError("STL has single precision only; a coordinate is too large", {.points = {as_array(p)}},
                         "write a .off, .ply or .poly file instead");
   std::string header = "binary STL by ccdt";  // must not begin with `solid`
   header.resize(80, ' ');

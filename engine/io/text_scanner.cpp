@@ -15,7 +15,7 @@ namespace {
 /// Editors on Windows begin a text in UTF-8 with this mark.
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
-/// The byte where the words of a text begin.
+/// The byte where the text's first word may begin.
 std::size_t begin_of_words(std::string_view text, std::size_t begin) {
   if (begin == 0 && text.starts_with(byte_order_mark)) return byte_order_mark.size();
   return std::min(begin, text.size());
@@ -25,13 +25,13 @@ bool is_space(char c) {
   return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits, and one value means none
+constexpr std::size_t most_things = 0xFFFFFFFEu;  // indices have 32 bits, and one value is `none`
 
 std::string expected(const std::string& what, std::string_view found) {
   return "expected " + what + ", found " + in_quotes(found);
 }
 
-/// Skips the plus sign, which from_chars does not know.
+/// Skips a plus sign, which from_chars does not accept.
 const char* digits_begin(std::string_view word) {
   return word.size() > 1 && word[0] == '+' ? word.data() + 1 : word.data();
 }

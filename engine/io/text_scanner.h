@@ -13,7 +13,7 @@
 
 namespace ccdt::io {
 
-/// The item being read, for messages: "vertex 17". Items of the kind "facet" are also added to the place of the error.
+/// The item being read, for messages: "vertex 17". Items of kind "facet" are also added to the place of the error.
 struct Item {
   std::string_view kind;
   std::int64_t number = -1;  ///< -1: none
@@ -55,17 +55,17 @@ class TextScanner {
   std::string_view word(const Item& item);
   /// The next word without moving on; empty at the end.
   std::string_view peek();
-  /// Reads a word that must be equal to this.
+  /// Reads a word, which must equal this one.
   void expect(const Item& item, std::string_view word, const std::string& remedy);
 
   double number(const Item& item);  ///< finite
   Point3 point(const Item& item);
   std::int64_t integer(const Item& item);
-  /// Reads a whole number that must be equal to this. `it_is` begins the message.
+  /// Reads a whole number, which must equal `expected`. `it_is` begins the error message.
   void expect_integer(const Item& item, std::int64_t expected, const std::string& remedy, const char* it_is = "it is");
   /// A whole number that fits an int; also written as "3.0".
   int attribute(const Item& item);
-  /// An index from `first` to `first + count - 1`, returned from 0.
+  /// Reads an index from `first` to `first + count - 1`; returns it counted from 0.
   std::uint32_t index(const Item& item, std::int64_t first, std::size_t count);
   template <std::size_t Corners>
   std::array<std::uint32_t, Corners> indices(const Item& item, std::int64_t first, std::size_t count) {
@@ -73,7 +73,8 @@ class TextScanner {
     for (std::uint32_t& corner : result) corner = index(item, first, count);
     return result;
   }
-  /// Reads the number of following items. Each needs at least this many bytes, which the rest of the file must have.
+  /// Reads the number of following items. Each needs at least this many bytes, and the rest of the file must be long
+  /// enough.
   std::size_t count(const Item& item, std::size_t least_bytes_each);
 
   std::size_t position() const { return position_; }
@@ -88,7 +89,7 @@ class TextScanner {
 
  private:
   void skip_blanks(bool also_lines);
-  bool is_blank(char c) const;  ///< and no line end
+  bool is_blank(char c) const;  ///< but not a line end
 
   const FileBytes& file_;
   std::string_view text_;
@@ -99,7 +100,7 @@ class TextScanner {
   bool joins_lines_ = false;
 };
 
-/// The value of a word that is a number; none otherwise.
+/// The value of a word if it is a number, otherwise none.
 template <std::integral Integer>
 std::optional<Integer> parse_whole(std::string_view word) {
   Integer value = 0;
@@ -107,7 +108,7 @@ std::optional<Integer> parse_whole(std::string_view word) {
   return error == std::errc() && stop == word.data() + word.size() ? std::optional(value) : std::nullopt;
 }
 
-/// A word for a message: in quotes, shortened, unprintable characters replaced.
+/// A word for a message: in quotes, shortened, with unprintable characters replaced.
 std::string in_quotes(std::string_view word);
 
 /// Are the words equal, ignoring case?

@@ -9,11 +9,11 @@
 
 namespace ccdt::io {
 
-// A signal handler must not allocate, lock or wait. So the names are in fixed places, and an entry counts as soon as it
-// has an owner.
+// A signal handler must not allocate, lock or wait. So the names are in fixed places, and an entry is valid as soon as
+// it has an owner.
 struct Entry {
   std::atomic<bool> is_taken = false;
-  std::atomic<pid_t> owner = 0;  ///< 0: the name is not there yet, or not any more
+  std::atomic<pid_t> owner = 0;  ///< 0: the name is not there yet, or is gone
   std::array<char, 4096> name{};
 };
 
@@ -26,7 +26,7 @@ std::array<Entry, 64> entries;
 }  // namespace
 
 UnfinishedFile::UnfinishedFile(const std::filesystem::path& file) {
-  const std::string name = std::filesystem::absolute(file).string();  // the process may go to another folder
+  const std::string name = std::filesystem::absolute(file).string();  // the process may change its folder
   if (name.size() >= Entry().name.size()) return;
   const auto free = std::ranges::find_if(entries, [](Entry& entry) { return !entry.is_taken.exchange(true); });
   if (free == entries.end()) return;

@@ -4,8 +4,8 @@
 
 namespace ccdt::io {
 
-/// The name of a file that must not stay if this process is ended. While the object lives, `remove_unfinished_files`
-/// finds the name. (One name of more than 4,095 bytes, or more than 64 at a time, it does not find.)
+/// The name of a file that must not remain if this process is killed. While the object lives, `remove_unfinished_files`
+/// finds the name. (It misses names longer than 4,095 bytes, and all but 64 names at a time.)
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::filesystem::path& file);
@@ -17,8 +17,8 @@ class UnfinishedFile {
   struct Entry* entry_ = nullptr;
 };
 
-/// Removes all unfinished files of this process. Not those of the process of which it is a fork. May be called from a
-/// signal handler.
+/// Removes all unfinished files of this process, but not those of the process that it was forked from. May be called
+/// from a signal handler.
 void remove_unfinished_files();
 
 }  // namespace ccdt::io

@@ -26,7 +26,7 @@ void convert(const char* bytes, std::size_t count, bool big_endian, Value* value
   for (std::size_t i = 0; i < count; ++i) {
     const Stored stored = number_at<Stored>(bytes + i * sizeof(Stored), big_endian);
     if constexpr (std::is_floating_point_v<Stored> && std::is_integral_v<Value>)
-      values[i] = std::fabs(stored) < 9e18 ? static_cast<Value>(stored) : -1;  // -1 is no index and no cell type
+      values[i] = std::fabs(stored) < 9e18 ? static_cast<Value>(stored) : -1;  // -1 is neither an index nor a cell type
     else
       values[i] = static_cast<Value>(stored);
   }
@@ -48,7 +48,7 @@ constexpr StoredType<Value> stored_types[] = {
     {"Int64", 8, convert<std::int64_t, Value>}, {"UInt64", 8, convert<std::uint64_t, Value>},
 };
 
-/// The numbers of a text, as values of this machine.
+/// The numbers of a text, in this machine's representation.
 template <class Value>
 StoredNumbers<Value> stored(std::span<const Value> values) {
   const auto bytes = std::as_bytes(values);
@@ -167,7 +167,7 @@ StoredNumbers<Value> VtkArrays::read(Array array) const {
 template StoredNumbers<double> VtkArrays::read<double>(Array array) const;
 template StoredNumbers<std::int64_t> VtkArrays::read<std::int64_t>(Array array) const;
 
-/// An array's text ends with the next tag: its own end, or the metadata that ParaView puts after the numbers.
+/// An array's text ends at the next tag: its own end tag, or the metadata that ParaView puts after the numbers.
 std::string_view VtkArrays::text_of(Array array) const {
   const pugi::xml_node text = array.first_child();
   return text.type() == pugi::node_pcdata ? text.value() : std::string_view();
@@ -187,12 +187,12 @@ std::size_t VtkArrays::appended_begin(Array array) const {
   return appended_begin_ + static_cast<std::size_t>(*value);
 }
 
-/// The bytes of an array as they are in the file, perhaps with some that follow it.
+/// The bytes of an array as they are in the file, perhaps with some bytes that follow it.
 std::string_view VtkArrays::encoded_bytes(Array array) const {
   if (!is_appended(array)) return text_of(array);
   const std::size_t begin = appended_begin(array);
   std::size_t end = appended_end_;
-  // Appended arrays follow each other; in base64 this one's end is where its padding or the next offset is.
+  // Appended arrays are consecutive; in base64, this one ends at its padding or at the next offset.
   for (const pugi::xml_node place : {piece_, piece_.parent()})
     for (const pugi::xml_node group : place.children())
       for (const Array other : group.children("DataArray"))

@@ -28,8 +28,8 @@ struct StoredNumbers {
   }
 };
 
-/// The arrays of a VTK XML unstructured grid of one piece: as text, in base64 or appended, compressed by zlib or not,
-/// of any type and byte order, with lengths of 32 or 64 bits.
+/// The arrays of a VTK XML unstructured grid of one piece: as text, in base64 or appended, with or without zlib
+/// compression, of any type and byte order, with 32-bit or 64-bit lengths.
 class VtkArrays {
  public:
   using Array = pugi::xml_node;  ///< a DataArray

@@ -18,7 +18,7 @@ namespace ccdt::io {
 /// \return nothing if there is another character or a piece is incomplete
 std::optional<std::string> decode_base64(std::string_view text);
 
-/// The size of the blocks that are written.
+/// The size of the blocks that we write.
 inline constexpr std::size_t block_size = std::size_t{1} << 17;
 
 /// Compresses a block with zlib.
@@ -45,13 +45,13 @@ std::string compress_values(std::size_t count, const ValueAt& value_at) {
   return join_blocks(blocks, count * sizeof(Value));
 }
 
-/// May this many compressed bytes hold a block of this size? To be checked before memory is allocated.
+/// Can this many compressed bytes hold a block of this size? Check it before allocating memory.
 bool may_hold(std::uint64_t compressed, std::uint64_t size);
 
 /// Decompresses a block.
 ///
 /// \param bytes  gets the contents, which must have exactly this size
-/// \return       false if it is no zlib block of this size
+/// \return       false if it is not a zlib block of this size
 bool decompress_block(std::string_view compressed, std::span<char> bytes);
 
 }  // namespace ccdt::io

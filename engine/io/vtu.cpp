@@ -44,7 +44,7 @@ std::vector<Point3> read_points(const VtkArrays& arrays) {
 
 struct VtuCell {
   std::size_t number;
-  std::size_t kind;         ///< 0 to 2: the place of its elements among those of a mesh; 3: none
+  std::size_t kind;         ///< 0 to 2: which list of a mesh it belongs to; 3: none
   std::int64_t begin, end;  ///< of its corners in the connectivity
   int region, marker;
 };
@@ -141,7 +141,7 @@ void enter_cells(const VtuCells& cells, std::size_t begin, std::size_t end, Kind
   });
 }
 
-/// \throw InputError  for one of the wrong cells
+/// \throw InputError  a cell is wrong; names one of these
 void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
   const std::size_t size = cells.types.size();
   std::vector<KindCounts> starts = parallel_chunks(
@@ -157,7 +157,7 @@ void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
   });
 }
 
-/// The attribute of cells with this name; none if there is no such array with one whole number per cell.
+/// The attribute of cells with this name; none unless there is such an array with one whole number per cell.
 StoredNumbers<std::int64_t> read_attributes(const VtkArrays& arrays, const char* name, std::size_t count) {
   const auto array = arrays.find("CellData", name);
   if (!array) return {};
@@ -172,7 +172,8 @@ StoredNumbers<std::int64_t> read_attributes(const VtkArrays& arrays, const char*
     });
   };
   if (const auto large = parallel_collect<std::size_t>(count, range_length, find_large); !large.empty())
-    arrays.fail(arrays.begin_of(array), "cell " + std::to_string(large[0]) + ": its " + name + " does not fit 32 bits",
+    arrays.fail(arrays.begin_of(array),
+                "cell " + std::to_string(large[0]) + ": its " + name + " does not fit in 32 bits",
                 "use smaller numbers");
   return values;
 }

@@ -10,7 +10,7 @@
 
 namespace ccdt::io {
 
-/// Writes lines on several threads, in their order.
+/// Formats lines on several threads, and writes them in order.
 ///
 /// \param line  `line(i, out)` writes line i to a `TextBuffer` or an `OutputFile`
 template <class Line>

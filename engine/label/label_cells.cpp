@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t grain = 4096;  // of loops on several threads
 
-/// Eight bits per cell: the separating faces, set on both sides, and above them those that are open on this side.
+/// Eight bits per cell. The low four: separating faces, set on both sides. The high four: those that are open on this
+/// side.
 using FaceBits = RawVector<std::uint8_t>;
 
 [[noreturn]] void refuse(const plc::Plc& plc, const delaunay::Delaunay& d, std::uint32_t cell) {
@@ -47,7 +48,7 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
     mark(d.across(wall_codes[i]), 0x01);
   });
   parallel_for(open.size(), grain, [&](std::size_t i) {
-    // Nearly all are faces of the PLC, and marked on both sides.
+    // Nearly all are faces of the PLC, and already marked on both sides.
     if (!mark(open[i].code, 0x11)) mark(d.across(open[i].code), 0x01);
   });
   return bits;
@@ -60,7 +61,7 @@ void note_least(std::uint32_t& least, std::uint32_t i) {
   }
 }
 
-/// Labels the cells that are connected to some first ones, with their region.
+/// Labels all cells that are connected to the first ones with the region of these.
 class RegionFlood {
  public:
   RegionFlood(const delaunay::Delaunay& d, const FaceBits& bits, RawVector<RegionId>& region)
@@ -68,7 +69,7 @@ class RegionFlood {
     parallel_fill(std::span(is_reached_), std::uint8_t{0});
   }
 
-  /// Each thread starts from a share of the first cells, which are in the order of memory, so that what it reaches is
+  /// Each thread starts from a share of the first cells, which are in memory order, so that the cells it reaches are
   /// close together.
   void spread(std::span<const std::uint32_t> first, RegionId region) {
     constexpr std::size_t least_share = 1024;
@@ -86,13 +87,13 @@ class RegionFlood {
   }
 
   /// The least labeled cell behind a wall that is not open on its side: the front has filled that side, so the labeled
-  /// part leaks into what the front has replaced. `none` if there is none.
+  /// part leaks into the space that the front has filled. `none` if there is none.
   std::uint32_t leak() const { return leak_; }
 
   std::size_t bytes() const { return bytes_of(is_reached_); }
 
  private:
-  /// Is it reached for the first time?
+  /// Is the cell reached for the first time?
   bool reach(std::uint32_t cell) { return set_bits_(is_reached_[cell], 1) == 0; }
 
   void label(std::span<const std::uint32_t> cells, RegionId region) {
@@ -100,8 +101,8 @@ class RegionFlood {
     work_done.cells_visited += cells.size();
   }
 
-  /// Adds what is reached from a few cells. It is unpredictable whether a neighbor is reached for the first time, so no
-  /// branch depends on it.
+  /// Adds the cells reached from a few cells. It is unpredictable whether a neighbor is reached for the first time, so
+  /// no branch depends on it.
   ///
   /// \param i  the first of them
   void reach_neighbors(std::span<const std::uint32_t> cells, std::size_t i, std::vector<std::uint32_t>& found) {

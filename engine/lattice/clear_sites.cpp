@@ -16,9 +16,9 @@
 
 namespace ccdt::lattice {
 
-// The usual clearance was measured on the cells of the Delaunay tetrahedralization of surface and lattice. A sphere of
-// 5120 triangles, uniform; the percentage of cells with a dihedral angle below 20 degrees, and the mean of the paper's
-// r:
+// The usual clearance was chosen by measuring the cells of the Delaunay tetrahedralization of surface and lattice. For
+// a uniform sphere of 5120 triangles: the percentage of cells with a dihedral angle below 20 degrees, and the mean of
+// the paper's r:
 //
 //     clearance    0      0.4    0.5    0.55   0.6    0.65   0.7    0.8
 //     fcc, < 20    1.18   1.18   0.97   0.73   0.75   0.73   0.93   1.03
@@ -26,12 +26,12 @@ namespace ccdt::lattice {
 //     bcc, < 20    0.97   0.56   0.39   0.39   0.43   0.52   0.65   0.76
 //     bcc, r       1.245  1.214  1.176  1.175  1.182  1.196  1.204  1.205
 //
-// A scanned surface of uneven triangles has its best values from 0.55 to 0.65; for a cube with a grid on its faces it
+// For a scanned surface of uneven triangles, 0.55 to 0.65 is best; for a cube with a grid on its faces, the clearance
 // makes no difference.
 
 namespace {
 
-/// Covers the rounding of the test whether a point is near enough to a triangle.
+/// Covers the rounding in the test of whether a point is near enough to a triangle.
 constexpr double relative_margin = 1e-9;
 
 /// Octree coordinates from `low` to `high`, both included.
@@ -45,7 +45,7 @@ struct PlacedObstacle : Obstacle {
   Range in_ball;  ///< of the triangle and its ball
 };
 
-/// A fast test whether a point is near a triangle.
+/// A fast test of whether a point is near a triangle.
 class TriangleDistance {
  public:
   explicit TriangleDistance(const TrianglePoints& triangle)
@@ -54,7 +54,8 @@ class TriangleDistance {
         squared_area_(squared_length(normal_)) {}
 
   bool is_below(double squared_radius, const Point3& p) const {
-    // Most are too far from the plane already. The margin is for narrow triangles, whose normals are rounded most.
+    // Most points are already too far from the plane. The margin is for narrow triangles, whose normals are rounded
+    // most.
     constexpr double margin = 1.01;
     const double height = dot(p - corners_[0], normal_);
     if (height * height > margin * squared_radius * squared_area_) return false;
@@ -130,10 +131,10 @@ class Clearing {
   }
 
  private:
-  /// The part of the sites that is in a node; they follow one another in Morton order.
+  /// The sites in a node, which are consecutive in Morton order.
   struct NodeSites {
     std::uint32_t begin = 0, end = 0;
-    std::uint8_t coarsest = 0;  ///< the level of the coarsest leaf in the node that has any
+    std::uint8_t coarsest = 0;  ///< the level of the coarsest leaf in the node that has any sites
   };
   struct PlacedSite {
     Point3 point;
@@ -146,9 +147,9 @@ class Clearing {
   };
   /// The working memory of a descent.
   struct Descent {
-    /// The obstacles that reach each node on the way from the root, the current one last; then unused room.
+    /// The obstacles that reach each node on the way from the root, those of the current node last; then unused room.
     std::vector<std::uint32_t> reaching;
-    std::vector<std::uint8_t> children_in_reach = {};  ///< of each that is reaching
+    std::vector<std::uint8_t> children_in_reach = {};  ///< of each reaching obstacle
     std::vector<PlacedSite> left = {};                 ///< of a leaf
   };
   struct Clearance {
@@ -237,7 +238,7 @@ class Clearing {
     std::fill(stays_.begin() + those.begin, stays_.begin() + those.end, std::uint8_t{false});
   }
 
-  /// Is it within one of the balls?
+  /// Is the node within one of the balls?
   bool is_covered(const OctreeNode& node, std::span<const std::uint32_t> reaching) const {
     const Box box = tree_.box(node);
     const double side = tree_.length(tree_.side(node)), least = 0.75 * side * side;

@@ -10,9 +10,9 @@
 
 namespace ccdt::lattice {
 
-/// Finds the sites that are too near to the surface: in the smallest ball of a triangle or a subsegment, its radius
-/// times `options.sphere_factor` (paper, section 3; Cavendish, Field and Frey 1985), or not farther from a triangle, a
-/// subsegment or a vertex than `options.clearance` times the edge length of their lattice cell.
+/// Finds the sites that are too near the surface: in the smallest ball of a triangle or a subsegment, its radius times
+/// `options.sphere_factor` (paper, section 3; Cavendish, Field and Frey 1985), or within `options.clearance` times the
+/// edge length of their lattice cell of a triangle, a subsegment or a vertex.
 ///
 /// \param sites  of the tree, in Morton order
 /// \return       for each site: does it stay?

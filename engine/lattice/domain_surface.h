@@ -18,7 +18,7 @@ struct SurfaceTriangle {
 /// The corners of a triangle.
 using TrianglePoints = std::array<Point3, 3>;
 
-/// The surface from which the lattice must keep away: views of the caller's data.
+/// The surface that the lattice must keep away from: views of the caller's data.
 struct DomainSurface {
   std::span<const Point3> vertices;
   std::span<const SurfaceTriangle> triangles;

@@ -21,7 +21,7 @@ struct Polygon {
   void add(const Vector& v) { corners[count++] = v; }
 };
 
-/// The part of a convex polygon with sign * (coordinate - bound) >= 0.
+/// The part of a convex polygon where sign * (coordinate - bound) >= 0.
 Polygon clip(const Polygon& polygon, int axis, double bound, double sign) {
   Polygon part;
   for (std::size_t i = 0; i < polygon.count; ++i) {
@@ -57,7 +57,7 @@ double clamp_round(double x, double low, double high) {
   return std::clamp(std::round(x), low, high);
 }
 
-/// Twice as far as the target, or to the border of the box.
+/// The ray to twice the target's distance, or to the border of the box.
 Ray ray_through(const Point3& start, const Point3& target, const Box& box) {
   const Point3 d = target - start;
   double t = 2;
@@ -171,7 +171,7 @@ bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point)
 
 std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const DomainSurface& surface,
                                       std::span<const std::uint32_t> nearby) {
-  // A second round aims a little beside each target.
+  // Further rounds aim slightly off each target.
   constexpr double aside[] = {0, 0.11, 0.23};
   constexpr std::size_t most_targets = 40;
   std::vector<Hit> hits;

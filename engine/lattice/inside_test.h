@@ -11,9 +11,9 @@ namespace ccdt::lattice {
 
 /// Is the point strictly inside the domain?
 ///
-/// A ray is sent from the point to a triangle within the box; the flag of the visible side of the nearest triangle that
-/// it hits is the answer. Exact (`orient3d`): a ray that touches an edge or a vertex, or whose nearest hits cannot be
-/// told apart, is replaced by another.
+/// A ray is sent from the point to a triangle within the box. The answer is the flag of the visible side of the nearest
+/// triangle hit. Exact (`orient3d`): a ray is replaced by another one if it touches an edge or a vertex, or if its
+/// nearest hits cannot be told apart.
 ///
 /// \param p      integer coordinates; in the box
 /// \param box    integer coordinates
@@ -22,7 +22,7 @@ namespace ccdt::lattice {
 std::optional<bool> is_inside_by_rays(const Point3& p, const Box& box, const DomainSurface& surface,
                                       std::span<const std::uint32_t> nearby);
 
-/// A point within the part of the triangle that lies in the box, up to rounding; false if there is no such part.
+/// Finds a point in the part of the triangle that lies in the box, up to rounding; false if there is no such part.
 bool common_point(const Box& box, const TrianglePoints& triangle, Point3& point);
 
 }  // namespace ccdt::lattice

@@ -17,15 +17,15 @@ namespace ccdt::lattice {
 
 namespace {
 
-constexpr double two_to_a_sixth = 1.12246204830937298;
+constexpr double sixth_root_of_two = 1.12246204830937298;
 
 /// side / edge_length, see the table in the header.
 double side_for_unit_edge(Lattice kind) {
   switch (kind) {
     case Lattice::bcc:
-      return two_to_a_sixth;
+      return sixth_root_of_two;
     case Lattice::sc:
-      return 1 / two_to_a_sixth;
+      return 1 / sixth_root_of_two;
     case Lattice::fcc:
     case Lattice::none:
     case Lattice::refinement:
@@ -37,9 +37,9 @@ double side_for_unit_edge(Lattice kind) {
 /// The children of a node on the upper sides of its three middle planes, as bits.
 constexpr unsigned upper_children[] = {0xAA, 0xCC, 0xF0};
 
-/// A bit for each child of a node; not set only if the child and the triangle are certainly apart, though their
-/// bounding boxes may overlap. Tests separating axes, with a margin for rounding: the cross products of edges and axes
-/// here (in three lanes, one for each edge), the triangle's normal below.
+/// A bit for each child of a node, set unless the child and the triangle are certainly apart. Their bounding boxes may
+/// overlap. Tests separating axes, with a margin for rounding: the cross products of edges and axes here (in three
+/// lanes, one for each edge), the triangle's normal below.
 ///
 /// \param center  of the node
 /// \param half    of the sides of its children
@@ -55,10 +55,10 @@ CCDT_ALWAYS_INLINE unsigned children_touching(const TrianglePoints& triangle, co
     edge[k] = Lanes{ab[k], bc[k], ac[k], 0};
     filter::magnitude(edge[k], magnitude[k]);
   }
-  IntegerLanes apart = {};  // in each lane: the children that its edge shows to be apart
+  IntegerLanes apart = {};  // in each lane: the children that this edge shows to be apart
   for (int k = 0; k < 3; ++k) {
     const int p = (k + 1) % 3, q = (k + 2) % 3;
-    // Of the corners, along the axes; the first one is at 0.
+    // Of the corners, along the axes; the first corner is at 0.
     const Lanes b = edge[p] * ab[q] - edge[q] * ab[p], c = edge[p] * ac[q] - edge[q] * ac[p];
     const Lanes radius = size * (magnitude[p] + magnitude[q]), none = {};
     Lanes low, high;
@@ -152,8 +152,8 @@ class Builder {
       if (!tree_.nodes[i].is_leaf()) split_nodes[tree_.nodes[i].level].push_back(i);
     }
     for (unsigned level = tree_.depth; level > 0; --level) {
-      // Only coarser nodes are split from now on, by one thread. Several threads first look for what makes it split
-      // some.
+      // From here on, only coarser nodes are split, by one thread. Several threads first look for the nodes that
+      // require splits.
       Nodes nodes = std::move(split_nodes[level]);
       if (thread_count() > 1) nodes = without_all_neighbors(nodes, level);
       for (const std::uint32_t i : nodes)
@@ -174,7 +174,7 @@ class Builder {
     return corner;
   }
 
-  /// The nodes of a level next to a leaf that must be split, in the same order.
+  /// The nodes of a level that are next to a leaf that must be split, in the same order.
   Nodes without_all_neighbors(const Nodes& nodes, unsigned level) const {
     return parallel_collect<std::uint32_t>(nodes.size(), 256, [&](std::size_t i, std::size_t end, Nodes& found) {
       for (; i < end; ++i) {
@@ -185,7 +185,7 @@ class Builder {
     });
   }
 
-  /// Is there a node with this corner at the level, or need there be none?
+  /// Does a node with this corner exist at the level, or is none needed?
   bool exists(const std::array<std::uint32_t, 3>& corner, unsigned level) const {
     if (std::ranges::max(corner) >= tree_.side(tree_.nodes[0])) return true;
     std::uint32_t i = 0;
@@ -208,7 +208,7 @@ class Builder {
 
   using Triangles = RawVector<std::uint32_t>;
 
-  /// Splits nodes, whose children come in the same order.
+  /// Splits nodes. Their children come in the same order.
   void split(std::span<const std::uint32_t> parents) {
     const std::uint32_t first = make_room(parents.size());
     const std::size_t length = std::clamp<std::size_t>(parents.size() / 64, 1, 64);
@@ -245,7 +245,7 @@ class Builder {
     return static_cast<std::uint32_t>(first);
   }
 
-  /// \param triangles  gets those of the children
+  /// \param triangles  gets the triangles of the children
   /// \param lists      working memory
   void split_run(std::span<const std::uint32_t> parents, std::uint32_t first_child, Triangles& triangles,
                  std::array<Triangles, 8>& lists) {
@@ -337,7 +337,7 @@ class Builder {
     return children;
   }
 
-  /// All empty children meet in the center of the parent, so they are in the same place as the center is.
+  /// All empty children share the center of the parent, so they have the same `NodePlace` as the center.
   void place_empty_children(const OctreeNode& parent, std::uint32_t first_child) {
     std::uint32_t empty = 0, beyond_bounds = 0;
     for (std::uint32_t c = 0; c < 8; ++c) {
@@ -405,7 +405,8 @@ bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p
     return is_inside_by_rays(p, intersection(tree.box(n), tree.bounds), surface, tree.triangles_of(n));
   };
   if (const auto answer = answer_in(node)) return *answer;
-  // Triangles are passed down with a margin, so the box itself may contain none. The boxes around it contain more.
+  // Triangles are passed down with a margin, so the box itself may contain none. The larger boxes around it contain
+  // more.
   std::vector<std::uint32_t> path = {0};
   while (tree.nodes[path.back()].level < node.level)
     path.push_back(tree.child_at(tree.nodes[path.back()], node.corner));

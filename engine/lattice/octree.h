@@ -14,8 +14,8 @@ namespace ccdt::lattice {
 
 /// The side of the cubic cell of a lattice for a target edge length.
 ///
-/// All three lattices have the same number of points per volume for the same target, that of FCC whose nearest
-/// neighbors are exactly `edge_length` apart: sqrt(2) / edge_length^3.
+/// For the same target, all three lattices have the same number of points per volume: that of the FCC lattice whose
+/// nearest neighbors are `edge_length` apart, sqrt(2) / edge_length^3.
 ///
 ///     lattice  points/cell    side / edge_length     nearest neighbors
 ///     fcc      4              sqrt(2)   = 1.41421    12 at 1.00000 edge_length
@@ -31,7 +31,7 @@ double edge_length_of_cell(Lattice kind, double side);
 /// wanted size by up to 41 percent.
 double round_to_few_bits(double positive);
 
-/// The place of a node: touched by the surface, or entirely on one side of it.
+/// Where a node is: touched by the surface, or entirely on one side of it.
 enum class NodePlace : std::uint8_t { outside, surface, inside };
 
 struct OctreeNode {
@@ -45,15 +45,14 @@ struct OctreeNode {
   bool is_leaf() const { return first_child == 0; }
 };
 
-/// An octree whose leaves are lattice cells (paper, section 3). Nodes outside the domain are never split. Levels of
-/// leaves that meet, even if only in a corner, differ by at most one, except at leaves that are outside.
+/// An octree whose leaves are lattice cells (paper, section 3). Nodes outside the domain are never split. The levels of
+/// leaves that meet, even only in a corner, differ by at most one, unless one is outside.
 ///
-/// An *octree unit* is half the side of the finest leaf that is possible, so every lattice point has whole octree
-/// units.
+/// An *octree unit* is half the side of the finest possible leaf, so every lattice point has whole octree units.
 struct Octree {
   Point3 origin;                ///< the least corner of the root, in grid units
   double unit = 1;              ///< one octree unit in grid units; few significant bits, or a small multiple of such
-  unsigned depth = 0;           ///< level of the finest leaves that are possible
+  unsigned depth = 0;           ///< level of the finest possible leaves
   Box bounds;                   ///< of the surface
   RawVector<OctreeNode> nodes;  ///< the root first
   RawVector<std::uint32_t> triangles;  ///< those that touch a node, node by node
@@ -70,11 +69,11 @@ struct Octree {
     const double side_length = length(side(node));
     return {low, low + Point3{side_length, side_length, side_length}};
   }
-  /// The child of an inner node that holds a point of it (each holds its lower faces, not the upper ones).
+  /// The child of an inner node that holds a point of the node (each child holds its lower faces, not the upper ones).
   std::uint32_t child_at(const OctreeNode& node, const std::array<std::uint32_t, 3>& c) const;
   /// The leaf that holds a point within the root.
   const OctreeNode& leaf_at(const std::array<std::uint32_t, 3>& c) const;
-  /// The leaf that holds a point of the root, which is in the box of the leaf.
+  /// The leaf that holds a point of the root.
   ///
   /// \param p  integers in grid units
   const OctreeNode& leaf_with(const Point3& p) const;
@@ -83,14 +82,14 @@ struct Octree {
   }
 };
 
-/// Builds the octree whose leaves have the cell side for the wanted size within a factor of sqrt(2), and within 0.4
-/// percent where that is the reference size.
+/// Builds the octree whose leaves have the right cell side for the wanted size, within a factor of sqrt(2), and within
+/// 0.4 percent where that is the reference size.
 ///
 /// \throw LimitError  more leaves than a program can index
 Octree build_octree(const DomainSurface& surface, const TargetSizes& size, Lattice kind);
 
 /// Is a point of a node on the surface strictly inside the domain? Exact. If no ray in the whole tree decides, the
-/// answer is no: then a point may be missing, but none is wrong.
+/// answer is no: then a point may be missing, but no point is wrong.
 bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p, const OctreeNode& node);
 
 }  // namespace ccdt::lattice

@@ -26,7 +26,7 @@ constexpr auto names_of(Lattice) {
                                               "(Delaunay refinement)"}});
 }
 
-/// Lattice points nearer to the surface than this times the edge length of the lattice are dropped. See the table in
+/// Lattice points nearer the surface than this times the lattice's edge length are dropped. See the table in
 /// clear_sites.cpp.
 inline constexpr double usual_clearance = 0.55;
 
@@ -34,7 +34,7 @@ struct LatticeOptions {
   Lattice kind = Lattice::fcc;
   double edge_length = 0;  ///< target edge length in grid units; 0: that of the surface
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
-  /// Factor of the radii of the smallest spheres through surface triangles and subsegments, in which no point may lie;
+  /// Factor for the radii of the smallest spheres around surface triangles and subsegments, which may contain no point;
   /// 1 is the paper's rule, 0 switches it off.
   double sphere_factor = 1;
   double clearance = usual_clearance;  ///< least distance to the surface, in edge lengths of the lattice there

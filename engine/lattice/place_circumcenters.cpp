@@ -57,7 +57,7 @@ struct Candidate {
   std::uint32_t cell;
 };
 
-/// Hands out candidates by badness, the worst first, up to a factor of 1 + 2^-5. Of those that are equally bad up to
+/// Hands out candidates by badness, the worst first, up to a factor of 1 + 2^-5. Among those that are equally bad up to
 /// that, the latest comes first: it is near the one before it, in space and in memory.
 class CandidateQueue {
  public:
@@ -79,14 +79,14 @@ class CandidateQueue {
     return true;
   }
 
-  /// At its largest.
+  /// Of the queue at its largest.
   std::size_t bytes() const { return most_ * sizeof(Candidate); }
 
  private:
   static constexpr int low_bits = 18;  ///< of a `float`, that do not matter: all but five of the mantissa
 
   std::vector<std::vector<Candidate>> buckets_ = std::vector<std::vector<Candidate>>(std::size_t{1} << (31 - low_bits));
-  std::size_t worst_ = 0;  ///< no bucket beyond has any
+  std::size_t worst_ = 0;  ///< no bucket beyond it has candidates
   std::size_t size_ = 0, most_ = 0;
 };
 
@@ -146,9 +146,9 @@ class Refinement {
     return s.squared_radius > levels_[leaf.level].squared_radius;
   }
 
-  /// Queues those of some cells that are bad and whose circumcenter may be inside.
+  /// Queues the bad ones of these cells whose circumcenter may be inside.
   void consider(std::span<const std::uint32_t> cells) {
-    // In an order that does not depend on that of the cells.
+    // Sorted, so that the order does not depend on that of the cells.
     new_ones_.clear();
     for (const std::uint32_t c : cells)
       if (d_.is_finite(c)) new_ones_.push_back({sorted(d_.cells[c].vertices), c});
@@ -178,7 +178,7 @@ class Refinement {
     return NewPoint{center, is_large ? s.squared_radius / 4 : s.squared_shortest_edge};
   }
 
-  /// Inserts a vertex, unless that keeps the cell or comes too near to another vertex.
+  /// Inserts a vertex, unless it would leave the cell in place or come too near another vertex.
   bool insert(const Point3& p, std::uint32_t cell, double squared_clearance) {
     const std::uint32_t v = d_.add_vertex(p);
     const bool is_new = insertion_.find_cavity(v, cell);
@@ -215,8 +215,8 @@ class Refinement {
     return strictly_contains(tree_.bounds, p) && is_inside(p, tree_.leaf_with(p));
   }
 
-  /// The first points are the farthest from each other, so they are to be inserted first again. Each round has three
-  /// times the points of all before it.
+  /// The first points are the farthest from each other, so they should be inserted first again. Each round has three
+  /// times as many points as all rounds before it.
   LatticePoints points() const {
     const std::size_t count = d_.vertices.size() - first_;
     LatticePoints result;
@@ -235,7 +235,7 @@ class Refinement {
   const LatticeOptions& options_;
   const Progress& progress_;
   const double squared_bound_;
-  /// What is allowed where the leaves of the octree have a level.
+  /// What is allowed where the leaves of the octree have this level.
   struct Level {
     double clearance;       ///< from the surface, the least
     double squared_radius;  ///< of a cell, the greatest

@@ -18,7 +18,7 @@ namespace ccdt::lattice {
 namespace {
 
 constexpr std::string_view stage = "lattice";
-constexpr std::uint8_t outside = 0xFF;  ///< instead of a level
+constexpr std::uint8_t outside = 0xFF;  ///< in place of a level
 
 /// By the divergence theorem.
 double volume_inside(const DomainSurface& surface) {
@@ -34,14 +34,14 @@ double volume_inside(const DomainSurface& surface) {
   return volume;
 }
 
-/// The field of sizes takes much memory, so it ends here.
+/// The size field takes much memory, so its lifetime ends here.
 Octree make_octree(const DomainSurface& surface, const LatticeOptions& options) {
   const TargetSizes size = target_sizes(surface, options.edge_length, options.grading, options.background);
   check_number_of_points(surface, size);
   return build_octree(surface, size, options.kind);
 }
 
-/// Are all leaves around an inner one inner leaves of its level?
+/// Are all leaves around an inner leaf also inner leaves of its level?
 bool is_in_one_level(const Octree& tree, const OctreeNode& leaf) {
   for (std::uint32_t i = 0; i < 27; ++i) {
     const std::array<std::uint32_t, 3> step = {i % 3, i / 3 % 3, i / 9};
@@ -67,7 +67,7 @@ double share_in_one_level(const Octree& tree) {
   return sample.empty() ? 0 : count / static_cast<double>(sample.size());
 }
 
-/// The place of a leaf that a lattice point of another leaf touches, if one of them is not on the surface.
+/// The place of a leaf that touches a lattice point of another leaf, if one of these leaves is not on the surface.
 NodePlace place_beside(const Octree& tree, const std::array<std::uint32_t, 3>& point, const OctreeNode& leaf) {
   for (const unsigned axes : {1u, 2u, 4u, 3u, 5u, 6u, 7u}) {
     std::array<std::uint32_t, 3> beside = point;
@@ -91,7 +91,7 @@ bool is_site_inside(const Octree& tree, const DomainSurface& surface, const std:
 }
 
 /// Sorts things with corners among the vertices along a space-filling curve, so that neighbors in space are neighbors
-/// in memory. The place of each is the sum of its corners.
+/// in memory. Each is placed at the sum of its corners.
 template <class Thing, class Corners>
 RawVector<Thing> in_morton_order(std::span<const Point3> vertices, std::span<const Thing> things,
                                  const Corners& corners_of) {

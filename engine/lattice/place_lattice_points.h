@@ -22,27 +22,28 @@ struct LatticePoints {
   double share_in_one_level = 0;
 };
 
-/// Places interior points in a crystal lattice on an octree (paper, section 3). All points are integers in grid units,
-/// pairwise different, strictly inside the domain, outside the smallest sphere through any surface triangle and any
-/// subsegment, and at least about half an edge length away from all triangles, subsegments and vertices (the two
-/// distances are options). In Morton order of the octree; the same for any order of the triangles.
+/// Places interior points in a crystal lattice on an octree (paper, section 3). All points are distinct integers in
+/// grid units, strictly inside the domain, outside the smallest sphere through any surface triangle and any subsegment,
+/// and at least about half an edge length away from all triangles, subsegments and vertices (the two distances are
+/// options). In Morton order of the octree; the same for any order of the triangles.
 ///
-/// With a grading, the target edge length at x is the least of `edge_length` (if any) and, over the surface, of (mean
-/// edge length there + grading * distance). Leaves halve from level to level, so the lattice matches it within a factor
-/// of sqrt(2), and within 0.4 percent where it is `edge_length` or, if that is 0, the mean edge length of the surface.
-/// Without a grading, all leaves have that size. For the constants of the lattices see octree.h.
+/// With a grading, the target edge length at x is the least of `edge_length` (if any) and, over the surface, (mean edge
+/// length there + grading * distance). Leaves halve from level to level, so the lattice matches the target within a
+/// factor of sqrt(2), and within 0.4 percent where it is `edge_length` or, if that is 0, the mean edge length of the
+/// surface. Without a grading, all leaves have that size. For the constants of the lattices see octree.h.
 ///
 /// With a background, its sizes replace the edge lengths of the surface. If it has tetrahedra, the target is linear in
-/// each, and outside that of the nearest vertex; the grading plays no part. If it has only vertices, the target is the
-/// least over these of (size + grading * distance). Either way `edge_length`, if given, is an upper bound.
+/// each, and outside of them it is that of the nearest vertex; the grading plays no part. If it has only vertices, the
+/// target is the least over these of (size + grading * distance). Either way `edge_length`, if given, is an upper
+/// bound.
 ///
-/// \param any_order   the surface in grid units, its triangles in any order; its subsegments protect the segments, also
-///                    those that no triangle has
+/// \param any_order   the surface in grid units, its triangles in any order; its subsegments include those of segments
+///                    that no triangle has
 /// \throw LimitError  more points than vertex ids
 LatticePoints place_lattice_points(const DomainSurface& any_order, const LatticeOptions& options,
                                    const Progress& progress = {});
 
-/// Checks the number of points before memory is allocated. They are nowhere coarser than the greatest target.
+/// Checks the number of points before memory is allocated. They are nowhere coarser than the largest target.
 ///
 /// \throw LimitError  more points than vertex ids
 void check_number_of_points(const DomainSurface& surface, const TargetSizes& size);

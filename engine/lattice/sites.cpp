@@ -13,7 +13,7 @@
 namespace ccdt::lattice {
 namespace {
 
-/// Places in a cell, in halves of its side. Those that the leaf itself holds, all below 2, are in Morton order.
+/// Places in a cell, in halves of its side. The places that the leaf itself holds, all below 2, are in Morton order.
 using CellPoint = std::array<std::uint8_t, 3>;
 
 constexpr CellPoint corners_then_faces[] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {2, 2, 0}, {0, 0, 2},
@@ -37,14 +37,14 @@ std::span<const CellPoint> points_of_cell(Lattice kind) {
   return {};
 }
 
-/// A node, and those beyond its upper sides: entry i is one side length further along the axes whose bits i has. They
-/// have the level of the node, or are coarser leaves; `none` beyond the root.
+/// A node, and the nodes beyond its upper sides: entry i is one side length further along the axes whose bits are set
+/// in i. They have the level of the node, or are coarser leaves; `none` beyond the root.
 using Upward = std::array<std::uint32_t, 8>;
 
 Upward upward_of_child(const Octree& tree, const Upward& parent, std::uint32_t child) {
   Upward result;
   for (std::uint32_t i = 0; i < 8; ++i) {
-    // Where both bits are set, the way leads out of the parent.
+    // Along axes whose bit is set in both, the step leaves the parent.
     const std::uint32_t beyond = parent[child & i];
     const bool is_end = beyond == none || tree.nodes[beyond].is_leaf();
     result[i] = is_end ? beyond : tree.nodes[beyond].first_child + (child ^ i);
@@ -52,7 +52,7 @@ Upward upward_of_child(const Octree& tree, const Upward& parent, std::uint32_t c
   return result;
 }
 
-/// The nodes of a tree that has been cut off at the top, in Morton order.
+/// The roots of the subtrees that are left after cutting off a tree's top, in Morton order.
 std::vector<Upward> cut_off_top(const Octree& tree, std::size_t least_nodes) {
   std::vector<Upward> nodes = {{0, none, none, none, none, none, none, none}};
   for (bool grows = true; grows && nodes.size() < least_nodes;) {

@@ -23,9 +23,10 @@ inline std::array<std::uint32_t, 3> coordinates_of(Site site) {
   return coordinates_of_morton_code(site);
 }
 
-/// How many rounds follow that of a site if a lattice is inserted in rounds from coarse to fine. The simple cubic
+/// How many rounds follow a site's round if a lattice is inserted in rounds from coarse to fine. The simple cubic
 /// lattice with steps of 2^k octree units is part of a face-centered one, which is part of the simple cubic lattice
-/// with half the step, and so on. Each begins a round. The centers of the body-centered lattice come last.
+/// with half the step, and so on. Each of these lattices begins a round. The centers of the body-centered lattice come
+/// last.
 ///
 /// \param log_step  the coordinates of the sites around are multiples of 2 to this power
 constexpr std::uint8_t later_rounds(Site site, unsigned log_step) {
@@ -35,8 +36,8 @@ constexpr std::uint8_t later_rounds(Site site, unsigned log_step) {
 }
 
 /// The lattice points of all leaves that are not outside, each once, in Morton order, and strictly within the bounds of
-/// the surface. Those on the lower faces of leaves outside are left out. Those of leaves on the surface may be outside
-/// of the domain.
+/// the surface. Those on the lower faces of outside leaves are left out. Those of leaves on the surface may be outside
+/// the domain.
 std::vector<Site> list_sites(const Octree& tree, Lattice kind);
 
 }  // namespace ccdt::lattice

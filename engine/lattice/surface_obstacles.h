@@ -11,10 +11,10 @@
 
 namespace ccdt::lattice {
 
-/// A triangle of a surface, or a subsegment or a vertex as a degenerate one, from which interior points keep away.
+/// A triangle of a surface that interior points keep away from; subsegments and vertices count as degenerate triangles.
 struct Obstacle {
   std::array<VertexId, 3> vertices;
-  bool needs_clearance;        ///< not if triangles at the obstacle take care of that
+  bool needs_clearance;        ///< false if triangles at the obstacle take care of that
   Ball ball;                   ///< no point may be in this ball
   double squared_ball_radius;  ///< less than 0 if there is none
 };
@@ -22,14 +22,14 @@ struct Obstacle {
 /// \param sphere_factor  of the radii of the smallest balls of triangles and subsegments; 0: no balls
 RawVector<Obstacle> list_obstacles(const DomainSurface& surface, double sphere_factor);
 
-/// Finds out whether a point is too near to the surface. The rule is that of the sites of a lattice, see
-/// `find_clear_sites`, for one point at a time.
+/// Finds out whether a point is too near the surface, one point at a time. The rule is the one for the sites of a
+/// lattice, see `find_clear_sites`.
 class SurfaceObstacles {
  public:
   /// \param surface  in grid units; must outlive this
   SurfaceObstacles(const DomainSurface& surface, double sphere_factor);
 
-  /// Is a point in the ball of an obstacle, or not farther than this from one?
+  /// Is a point in the ball of an obstacle, or at most this far from an obstacle?
   bool reach(const Point3& p, double clearance) const;
 
   std::size_t bytes() const { return bytes_of(obstacles_) + tree_.bytes(); }

@@ -26,7 +26,7 @@ struct Weighted {
   double size, weight;
 };
 
-/// The number of points that need each size, up to a factor: those of a tetrahedron, or one per vertex.
+/// How many points need each size, up to a factor: as many as a tetrahedron needs, or one per vertex.
 std::vector<Weighted> weigh_sizes(const BackgroundSizes& background, double largest) {
   std::vector<Weighted> sizes;
   for (const auto& [a, b, c, d] : background.tetrahedra) {
@@ -64,7 +64,7 @@ TargetSizes sizes_of_surface(const DomainSurface& surface, double edge_length, d
     const double mean = (lengths[t][0] + lengths[t][1] + lengths[t][2]) / 3;
     samples[t] = sample_at((1.0 / 3) * (a + b + c), mean);
   });
-  // The sums are rounded, so they are made in one order.
+  // The sums are rounded, so they are always made in the same order.
   std::vector<Mean> at_vertex(surface.vertices.size());
   Mean everywhere;
   const auto add_edge = [&](VertexId a, VertexId b, double its_length) {

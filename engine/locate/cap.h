@@ -16,15 +16,15 @@ struct LocatedVertex {
   std::uint32_t rank, id;
 };
 
-/// The search region for the apex of a face: the points above the plane of the face in a ball that shrinks with every
-/// better vertex. In floating point: slightly too large, never too small.
+/// The search region for the apex of a face: the points above the plane of the face that are in a ball, which shrinks
+/// with every better vertex. In floating point: slightly too large, never too small.
 class Cap {
  public:
   /// Everything above the triangle abc.
   Cap(const Point3& a, const Point3& b, const Point3& c) : foot_(a) {
     const Point3 u = b - a, v = c - a;
     normal_ = cross(u, v);
-    // The roundings of the height of a point, times the length of the normal: 16 * 2^-53 * |u| |v| times its distance,
+    // The rounding error of a point's height, times the length of the normal: 16 * 2^-53 * |u| |v| times its distance,
     // which is below 2^53 grid units, rounded up.
     slack_ = 32 * std::sqrt(squared_length(u) * squared_length(v));
   }

@@ -16,7 +16,7 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 using CellVertices = std::array<std::uint32_t, 4>;
 
-/// The exact test whether a triangle and a cell, both closed, intersect; vertices by id.
+/// The exact test of whether a triangle and a cell, both closed, intersect; vertices are given by id.
 class TriangleCellTest {
  public:
   /// \param sides  by corner of the cell: the side of the triangle's plane that it is on
@@ -27,8 +27,8 @@ class TriangleCellTest {
       for (unsigned k = 0; k < 3; ++k) shared_[i] |= unsigned{cell[i] == t[k]} << k;
   }
 
-  /// Do the cell and the inside of the triangle meet? Exact, but for a corner of the cell alone: the inside of a face
-  /// of the mesh has no vertices.
+  /// Do the cell and the inside of the triangle meet? Exact, unless they meet only in a corner of the cell: the inside
+  /// of a face of the mesh has no vertices.
   bool intersect() const {
     const auto above = std::ranges::count(sides_, 1), below = std::ranges::count(sides_, -1);
     if ((above == 0 || below == 0) && above + below > 2) return false;
@@ -40,14 +40,14 @@ class TriangleCellTest {
  private:
   const Point3& point(std::uint32_t v) const { return d_.point(v); }
 
-  /// Is the section of the cell with the triangle's plane on the outer side of edge k of the triangle, or on its line
-  /// in part?
+  /// Is the section of the cell with the triangle's plane on the outer side of edge k of the triangle, or partly on its
+  /// line?
   ///
-  /// \param from  the side of some corners. Without corners above, those below give the corners of the section.
+  /// \param from  the side of some corners. If no corners are above, those below give the corners of the section.
   bool section_is_outside_edge(unsigned k, int from) const {
     const unsigned next = k < 2 ? k + 1 : 0, ends = 1U << k | 1U << next;
-    // The edge of the cell from i to j on the other side, or the corner j of the section, passes the line of the edge
-    // on the triangle's side.
+    // The cell's edge from i to j on the other side, or the section's corner j, passes the line of edge k on the
+    // triangle's side.
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < 4; ++j)
         if (sides_[i] == from && sides_[j] != from && ((shared_[i] | shared_[j]) & ends) == 0 &&
@@ -56,7 +56,7 @@ class TriangleCellTest {
     return true;
   }
 
-  /// Is the triangle on the outer side of a face of the cell, or on the face's plane in part?
+  /// Is the triangle on the outer side of a face of the cell, or partly in the face's plane?
   bool is_outside_a_face() const {
     return std::ranges::any_of(delaunay::face_corners, [&](const auto& f) {
       const unsigned on_face = shared_[f[0]] | shared_[f[1]] | shared_[f[2]];
@@ -75,11 +75,11 @@ class TriangleCellTest {
   const Triangle& t_;
   const CellVertices& cell_;
   const std::array<int, 4>& sides_;
-  std::array<unsigned, 4> shared_{};  // by corner of the cell: a bit for each corner of the triangle that it is
+  std::array<unsigned, 4> shared_{};  // by corner of the cell: a bit for the corner of the triangle that it equals
 };
 
-/// Finds the finite cells that meet the inside of some missing face: those that it cuts, and those that touch it with
-/// an edge or a face within its plane. They are connected, so each face has one part.
+/// Finds the finite cells that meet the inside of some missing face: cells that the face cuts, and cells that touch it
+/// with an edge or a face within its plane. The cells of a face are connected, so each face has one part.
 class PiercedCellSearch {
  public:
   /// \param missing   numbers of triangles of `facets` that are not Delaunay faces
@@ -105,11 +105,12 @@ class PiercedCellSearch {
 
  private:
   struct Visit {
-    std::uint32_t last = none;   ///< the missing face that was the last to visit the cell
-    std::uint32_t owner = none;  ///< the first that met the cell
+    std::uint32_t last = none;   ///< the last missing face that visited the cell
+    std::uint32_t owner = none;  ///< the first one that met the cell
   };
 
-  /// Finds the cells that missing face i meets, from the first of those around an edge, or else around a corner.
+  /// Finds the cells that missing face i meets, starting from the first such cell around an edge or, failing that,
+  /// around a corner.
   void flood(std::uint32_t i) {
     const auto& [a, b, c] = facets_.triangles[missing_[i]];
     const Triangle t = {a, b, c};
@@ -149,7 +150,7 @@ class PiercedCellSearch {
     for (const std::uint32_t code : d_.cells[cell].neighbors) __builtin_prefetch(&d_.cells[delaunay::cell_of(code)]);
   }
 
-  /// The side of the plane of missing face i on which a vertex is.
+  /// The side of the plane of missing face i that a vertex is on.
   int side(std::uint32_t v, std::uint32_t i, const Triangle& t) {
     auto& [face, side] = sides_[v];
     if (face == i) return side;
@@ -184,7 +185,7 @@ class PiercedCellSearch {
   const delaunay::Delaunay& d_;
   delaunay::CellStar star_;
   HashTable<std::uint32_t, Visit> visits_;
-  std::vector<std::pair<std::uint32_t, int>> sides_;  // of vertices, seen from the missing face that was the last
+  std::vector<std::pair<std::uint32_t, int>> sides_;            // of vertices, seen from the last missing face
   std::vector<std::pair<std::uint32_t, std::uint32_t>> owned_;  // cells and their owners
   UnionFind parts_;                                             // of missing faces
   std::vector<std::uint32_t> stack_;
@@ -225,7 +226,7 @@ class RegionsOfDomain {
     return {facet.above, facet.below};
   }
 
-  /// Those on either side of some of the faces.
+  /// The regions on either side of some of the faces.
   std::vector<RegionId> at(std::span<const std::uint32_t> faces) const {
     std::vector<RegionId> regions;
     for (const std::uint32_t face : faces)
@@ -292,7 +293,7 @@ CavityLocator::CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facet
       cavities_[i].push_back(
           {region, OctreeLocator(delaunay.vertices, its_vertices, facets.triangles, facets.facet, its_faces)});
     };
-    // Usually there is one region, which has everything.
+    // Usually there is only one region, and everything is in it.
     if (here.size() == 1) add_chamber(here[0], vertices, faces[i]);
     if (here.size() < 2) continue;
     for (const RegionId region : here)

@@ -24,14 +24,14 @@ struct PiercedCells {
 ///
 /// Why a cavity is enough. Let t be the constrained Delaunay cell above a face f in a cavity, and p a vertex in the
 /// sphere of t. Follow the straight line from f to p. Each face that it passes before it meets a facet is locally
-/// Delaunay, so if p is in the sphere before such a face, p is in the sphere behind it or is a corner of the cell there
-/// (of the powers to the two spheres, the one behind is the smaller beyond the face). If the line left the cavity
-/// before it met a facet, it would be in an outside cell that is truly Delaunay, whose sphere is empty, and could not
-/// reach p: a contradiction. So p is hidden, and by a face that is missing in this cavity or is a face of its cells.
-/// Vertices outside the sphere of t do no harm, whether hidden or not; and the apex of t is itself a corner of the
-/// cavity, since t is within it. More cells than needed do no harm either.
+/// Delaunay. So if p is in the sphere of the cell in front of such a face, it is also in the sphere of the cell behind
+/// it, or a corner of that cell (beyond the face, the power to the second sphere is smaller). If the line left the
+/// cavity before it met a facet, it would be in an outside cell that is truly Delaunay, whose sphere is empty, and
+/// could not reach p: a contradiction. So p is hidden, and by a face that is missing in this cavity or is a face of its
+/// cells. Vertices outside the sphere of t do no harm, whether hidden or not; and the apex of t is itself a corner of
+/// the cavity, since t is within it. Unneeded cells do no harm either.
 ///
-/// Nor is anything of another region needed: a line of sight leaves its region only through a face on the region's
+/// Nothing of other regions is needed either: a line of sight leaves its region only through a face on the region's
 /// boundary. So a cavity has *chambers*, one for each region of the domain in it. Between thin plates, most vertices in
 /// the sphere of a face belong to other regions.
 class CavityLocator {
@@ -41,8 +41,8 @@ class CavityLocator {
   CavityLocator(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const std::uint32_t> codes,
                 const delaunay::Delaunay& delaunay);
 
-  /// The vertices and faces of a cavity that a region of the domain has. `nullptr` if it has none: only a front that is
-  /// stuck elsewhere comes there.
+  /// The vertices and faces of a cavity that belong to a region of the domain. `nullptr` if there are none: only a
+  /// front that is stuck elsewhere gets there.
   const OctreeLocator* chamber(std::uint32_t cavity, RegionId region) const;
   std::size_t cavity_count() const { return cavities_.size(); }
 

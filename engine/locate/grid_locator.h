@@ -27,12 +27,12 @@ class GridLocator {
   std::size_t bytes() const { return bytes_of(vertices_, first_vertex_, faces_.first, faces_.items); }
 
   /// Calls visit(vertex) once for every vertex that the cap may contain, and for some others, by increasing distance
-  /// from `start`, ring of cells by ring. The cap may shrink during the search.
+  /// from `start`, one ring of cells after another. The cap may shrink during the search.
   template <class Visit>
   void visit_nearest_first(const Point3& start, const Cap& cap, const Visit& visit) const;
 
   /// Calls visit(face) for every face that the straight edge from p to q may meet, some more than once, until it
-  /// returns true. \return did some call?
+  /// returns true. \return did a call?
   template <class Visit>
   bool any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const;
 
@@ -97,7 +97,8 @@ void GridLocator::visit_cell(const UniformGrid::CellIndex& cell, const Cap& cap,
 
 template <class Visit>
 bool GridLocator::any_near_edge(const Point3& p, const Point3& q, const Visit& visit) const {
-  // The edge in pieces of about one cell, each within a box of a few cells; slightly widened to cover rounding.
+  // The edge is visited in pieces about as long as a cell, each in a box of a few cells, slightly widened to cover
+  // rounding.
   const double length = std::sqrt(squared_length(q - p));
   const int pieces = std::max(1, static_cast<int>(length / grid_.cell_size));
   const double slack = 1e-3 * grid_.cell_size;

@@ -10,8 +10,8 @@
 namespace ccdt::locate {
 namespace {
 
-/// The Morton numbers of the centers of the boxes in a cube around all of them.
-RawVector<KeyedIndex> morton_numbers(std::span<const Box> boxes, unsigned bits) {
+/// The Morton codes of the boxes' centers in a cube around all of them.
+RawVector<KeyedIndex> morton_codes(std::span<const Box> boxes, unsigned bits) {
   Box all = box_of(boxes[0].center());
   for (const Box& box : boxes) all = hull(all, box_of(box.center()));
   const Point3 extent = all.high - all.low;
@@ -23,8 +23,8 @@ RawVector<KeyedIndex> morton_numbers(std::span<const Box> boxes, unsigned bits) 
   return numbers;
 }
 
-// Measured: with 8 to 32 vertices and 2 to 8 faces the times differ by a fifth at most.
-constexpr std::uint32_t vertices_of_leaf = 16, faces_of_leaf = 4;
+// Measured: with 8 to 32 vertices and 2 to 8 faces, times differ by at most a fifth.
+constexpr std::uint32_t vertices_per_leaf = 16, faces_per_leaf = 4;
 
 std::vector<Box> boxes_of_vertices(std::span<const delaunay::DelaunayVertex> vertices,
                                    std::span<const std::uint32_t> some_vertices) {
@@ -49,7 +49,7 @@ std::vector<Box> boxes_of_faces(std::span<const delaunay::DelaunayVertex> vertic
 /// Facets with this many faces become layers.
 constexpr std::size_t faces_of_layer = 64;
 
-/// Makes the facets with many faces layers.
+/// Turns the facets with many faces into layers.
 ///
 /// \return  the other faces
 std::vector<std::uint32_t> take_layers(std::span<const delaunay::DelaunayVertex> vertices,
@@ -77,7 +77,7 @@ BoxOctree::BoxOctree(std::span<const Box> boxes, std::uint32_t leaf_size) {
   std::vector<std::uint64_t> keys;
   order_ = all_indices(boxes.size());
   if (boxes.size() > leaf_size) {
-    const RawVector<KeyedIndex> numbered = morton_numbers(boxes, deepest);
+    const RawVector<KeyedIndex> numbered = morton_codes(boxes, deepest);
     order_ = sorted_by_key(numbered);
     keys.reserve(order_.size());
     for (const std::uint32_t i : order_) keys.push_back(numbered[i].key);
@@ -124,7 +124,7 @@ void BoxOctree::split(std::uint32_t node, const std::vector<std::uint64_t>& keys
 
 FaceOctree::FaceOctree(std::span<const delaunay::DelaunayVertex> vertices,
                        std::span<const std::array<VertexId, 3>> faces, std::span<const std::uint32_t> some_faces)
-    : tree_(boxes_of_faces(vertices, faces, some_faces), faces_of_leaf) {
+    : tree_(boxes_of_faces(vertices, faces, some_faces), faces_per_leaf) {
   faces_.reserve(some_faces.size());
   for (const std::uint32_t i : tree_.order()) faces_.push_back(some_faces[i]);
   boxes_ = boxes_of_faces(vertices, faces, faces_);
@@ -144,7 +144,7 @@ FacetLayer::FacetLayer(std::span<const delaunay::DelaunayVertex> vertices,
       low_ = std::min(low_, height(vertices[v].point));
       high_ = std::max(high_, height(vertices[v].point));
     }
-  // Covers rounding: of coordinates below 2^53, in three heights and in an end that is moved.
+  // Covers the rounding of coordinates below 2^53, in three heights and in a moved end.
   constexpr double margin = 64;
   low_ -= margin, high_ += margin;
 }
@@ -157,7 +157,7 @@ OctreeLocator::OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices,
                              std::span<const std::uint32_t> some_vertices,
                              std::span<const std::array<VertexId, 3>> faces, std::span<const FacetId> facets,
                              std::span<const std::uint32_t> some_faces)
-    : vertex_tree_(boxes_of_vertices(vertices, some_vertices), vertices_of_leaf),
+    : vertex_tree_(boxes_of_vertices(vertices, some_vertices), vertices_per_leaf),
       other_faces_(vertices, faces, take_layers(vertices, faces, facets, some_faces, layers_)) {
   vertices_.reserve(some_vertices.size());
   for (const std::uint32_t i : vertex_tree_.order()) {

@@ -46,16 +46,16 @@ struct BoxProbe {
   bool misses(const Box& other) const { return !box.meets(other); }
 };
 
-/// An octree over items with boxes, in flat arrays: items in Morton order of the middles of their boxes, every node a
-/// run of them with the box around it, so that an item is in one leaf only, whatever its size. Nodes adapt to graded
-/// density: octants without items have no node, and a node with a single octant is that octant.
+/// An octree over items with boxes, in flat arrays. Items are in Morton order of the middles of their boxes, and every
+/// node is a run of items with the box around them. So an item is in one leaf only, whatever its size. Nodes adapt to
+/// graded density: octants without items have no node, and a node with a single octant is that octant.
 class BoxOctree {
  public:
   struct Node {
     Box box;
     std::uint32_t first = 0, last = 0;  ///< its items
     std::uint32_t children = 0;         ///< the first child; the others follow
-    std::uint32_t child_count = 0;      ///< none: a leaf
+    std::uint32_t child_count = 0;      ///< 0 in a leaf
   };
 
   /// \param leaf_size  largest number of items in a leaf, unless more are at one place
@@ -63,11 +63,11 @@ class BoxOctree {
 
   std::size_t bytes() const { return bytes_of(order_, nodes_); }
 
-  /// The items, in the order that nodes count in.
+  /// The items, in the order in which nodes refer to them.
   const std::vector<std::uint32_t>& order() const { return order_; }
 
   /// Calls visit(first, last) for the leaves. Among the children of a node, the nearest to `start` comes first. Skips
-  /// nodes for whose box `misses` is true when they are reached.
+  /// nodes whose box is missed (`misses` returns true) when they are reached.
   template <class Misses, class Visit>
   void visit_nearest_first(const Point3& start, const Misses& misses, const Visit& visit) const;
 
@@ -76,7 +76,7 @@ class BoxOctree {
   bool any_leaf_at(const Probe& probe, const Visit& visit) const;
 
  private:
-  static constexpr unsigned deepest = 21;                  // levels of Morton numbers of 63 bits
+  static constexpr unsigned deepest = 21;                  // levels of 63-bit Morton codes
   static constexpr unsigned stack_room = 7 * deepest + 8;  // of a depth-first walk
 
   void split(std::uint32_t node, const std::vector<std::uint64_t>& keys, std::vector<unsigned>& levels);
@@ -159,7 +159,7 @@ class FaceOctree {
 
 /// The many faces of one facet, and the space between two planes that encloses them tightly. An edge nearly parallel to
 /// the facet meets the boxes of very many faces if the facet is oblique, but is between the planes only for a short
-/// piece, if at all. Without this, stacks of thin plates, through which such edges run, would take forever.
+/// piece, if at all. Without this, stacks of thin plates would take forever if such edges run through them.
 class FacetLayer {
  public:
   FacetLayer(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces,
@@ -199,10 +199,10 @@ class FacetLayer {
 /// faces form a single leaf.
 class OctreeLocator {
  public:
-  /// Of all vertices and all faces.
+  /// With all vertices and all faces.
   OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::array<VertexId, 3>> faces);
 
-  /// Of some vertices and some faces, by their numbers. Facets with many of the faces become layers.
+  /// With some vertices and some faces, given by their numbers. Facets with many of the faces become layers.
   ///
   /// \param facets  of all faces
   OctreeLocator(std::span<const delaunay::DelaunayVertex> vertices, std::span<const std::uint32_t> some_vertices,
@@ -247,7 +247,7 @@ class OctreeLocator {
   BoxOctree vertex_tree_;
   std::vector<LocatedVertex> vertices_;  // in the order of the tree
   std::vector<FacetLayer> layers_;
-  FaceOctree other_faces_;  // those that became no layers, so it comes after them
+  FaceOctree other_faces_;  // those not in layers, so it comes after them
 };
 
 }  // namespace ccdt::locate

@@ -25,7 +25,7 @@ double determinant(const Point3& a, const Point3& b, const Point3& c) {
   return dot(a, cross(b, c));
 }
 
-/// A sum of numbers, and more than what it may be wrong by.
+/// A sum of numbers, and an upper bound on its error.
 struct RoundedSum {
   double sum, rounding;
 };
@@ -49,14 +49,14 @@ FaceKey key_of(const std::array<VertexId, 3>& t) {
   return face_key(t[0], t[1], t[2]);
 }
 
-bool is_bent_boundary(const plc::Plc& plc, const plc::Facet& facet) {
+bool is_nearly_flat_boundary(const plc::Plc& plc, const plc::Facet& facet) {
   return !facet.exactly_flat && plc.regions[facet.above].inside != plc.regions[facet.below].inside;
 }
 
 /// Removes the tetrahedra of almost no volume that lie within a boundary facet, with all four vertices on it and two
-/// faces on the boundary; their other two faces become faces of the facet. Only facets that are flat within the
-/// tolerance, but not exactly, have such tetrahedra. A tetrahedron stays if its removal would remove a vertex or a
-/// segment from its facet, fold the facet over, or put it onto another one.
+/// faces on the boundary; their other two faces become faces of the facet. Only nearly flat facets have such
+/// tetrahedra. A tetrahedron stays if its removal would remove a vertex or a segment from its facet, fold the facet
+/// over, or put it onto another one.
 class FlatTetrahedronPeeler {
  public:
   FlatTetrahedronPeeler(const plc::Plc& plc, const protection::SegmentChains& chains, std::span<const Point3> points,
@@ -69,7 +69,7 @@ class FlatTetrahedronPeeler {
         sources_(collected.sources) {}
 
   void peel() {
-    find_bent_facets();
+    find_nearly_flat_facets();
     if (vertices_ == 0) return;
     std::vector<std::size_t> flat = parallel_collect<std::size_t>(
         mesh_.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
@@ -78,7 +78,7 @@ class FlatTetrahedronPeeler {
         });
     if (flat.empty()) return;
     list_faces();
-    // In an order that does not depend on how the tetrahedra were found.
+    // Sorted, so that the order does not depend on how the tetrahedra were found.
     const auto corners = [&](std::size_t i) {
       std::array<std::uint32_t, 4> t = mesh_.tetrahedra[i];
       std::sort(t.begin(), t.end());
@@ -99,17 +99,17 @@ class FlatTetrahedronPeeler {
   }
 
  private:
-  void find_bent_facets() {
-    std::vector<std::uint32_t> bent;
+  void find_nearly_flat_facets() {
+    std::vector<std::uint32_t> nearly_flat;
     std::uint32_t vertices = 0;
     for (std::size_t i = 0; i < facets_.triangles.size(); ++i) {
-      if (!is_bent_boundary(plc_, plc_.facets[facets_.facet[i]])) continue;
-      bent.push_back(static_cast<std::uint32_t>(i));
+      if (!is_nearly_flat_boundary(plc_, plc_.facets[facets_.facet[i]])) continue;
+      nearly_flat.push_back(static_cast<std::uint32_t>(i));
       for (const VertexId v : facets_.triangles[i]) vertices = std::max(vertices, v + 1);
     }
     vertices_ = vertices;
     facets_of_ = make_index_lists(vertices, [&](const auto& emit) {
-      for (const std::uint32_t i : bent)
+      for (const std::uint32_t i : nearly_flat)
         for (const VertexId v : facets_.triangles[i]) emit(v, facets_.facet[i]);
     });
   }
@@ -120,7 +120,7 @@ class FlatTetrahedronPeeler {
       const auto& t = facets_.triangles[i];
       Point3& normal = normals[facets_.facet[i]];
       normal = normal + area_vector({points_[t[0]], points_[t[1]], points_[t[2]]});
-      if (is_bent_boundary(plc_, plc_.facets[facets_.facet[i]]))
+      if (is_nearly_flat_boundary(plc_, plc_.facets[facets_.facet[i]]))
         triangle_of_.set(key_of(t), i);
       else
         other_faces_.insert(key_of(t));
@@ -168,7 +168,7 @@ class FlatTetrahedronPeeler {
   }
 
   bool try_to_peel(const std::array<std::uint32_t, 4>& t) {
-    std::array<std::uint32_t, 2> inner{};  // faces, by the corner opposite to them
+    std::array<std::uint32_t, 2> inner{};  // faces, by the corner opposite them
     std::array<std::size_t, 2> triangles{};
     int outers = 0, inners = 0;
     for (std::uint32_t f = 0; f < 4; ++f) {
@@ -181,8 +181,8 @@ class FlatTetrahedronPeeler {
         inner[inners++] = f;
     }
     if (outers != 2 || inners != 2 || facets_.facet[triangles[0]] != facets_.facet[triangles[1]]) return false;
-    // The outer faces meet in the edge between the corners that the inner faces are opposite to, these in the other
-    // one.
+    // The outer faces meet in the edge between the corners opposite the inner faces; the inner faces meet in the other
+    // edge.
     const auto [p, q] = other_corners(inner);
     if (segment_edges_.contains(edge_key(t[inner[0]], t[inner[1]]))) return false;
     if (segment_edges_.contains(edge_key(t[p], t[q]))) return false;
@@ -211,10 +211,10 @@ class FlatTetrahedronPeeler {
   facets::FacetMesh& facets_;
   TetMesh& mesh_;
   RawVector<std::uint32_t>& sources_;
-  std::uint32_t vertices_ = 0;  // all vertices of bent facets are below
-  IndexLists facets_of_;        // by vertex: the bent facets of its triangles
+  std::uint32_t vertices_ = 0;  // all vertices of nearly flat facets are below
+  IndexLists facets_of_;        // by vertex: the nearly flat facets at it
   // If there are such tetrahedra:
-  HashTable<FaceKey, std::size_t> triangle_of_;  // of the bent facets
+  HashTable<FaceKey, std::size_t> triangle_of_;  // of nearly flat facets
   HashSet<FaceKey> other_faces_;                 // of all other facets
   HashSet<std::uint64_t> segment_edges_;
   std::vector<facets::FacetAxis> axis_of_;  // of each facet
@@ -344,8 +344,8 @@ std::vector<Point3> to_world(const plc::Plc& plc, std::span<const Point3> points
   parallel_for(world.size(), chunk_length, [&](std::size_t v) {
     world[v] = v < plc.world.size() && points[v] == plc.vertices[v] ? plc.world[v] : plc.grid.to_world(points[v]);
   });
-  // A vertex that returns to the grid may invert a tetrahedron of another one, so this repeats until all are right. All
-  // inverted tetrahedra are found before any vertex moves, so that their order does not matter.
+  // A vertex that goes back to the grid may invert a tetrahedron of another vertex, so this repeats until all are
+  // right. All inverted tetrahedra are found before any vertex moves, so that their order does not matter.
   std::vector<bool> on_grid(plc.world.size(), false);
   while (true) {
     work_done.cells_visited += tetrahedra.size();

@@ -13,11 +13,11 @@
 
 namespace ccdt::mesh {
 
-/// Proves that the tetrahedra fill the domain once: all are positive and share their faces, so they do if their volume
-/// is that inside the facets.
+/// Proves that the tetrahedra fill the domain once. All are positive and share their faces, so it suffices that their
+/// volume equals that inside the facets.
 ///
 /// \param points     the vertices, in grid units
-/// \throw MeshError  it is not
+/// \throw MeshError  the volume differs
 void check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const Point3> points,
                   const TetMesh& mesh);
 
@@ -35,7 +35,7 @@ void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, Te
 
 /// The vertices of a mesh in the units of the input. Input vertices get back their original coordinates wherever every
 /// tetrahedron around them stays positively oriented in the written coordinates, tested exactly. Elsewhere they keep
-/// their grid positions, or those to which improvement moved them.
+/// their grid positions, or the positions that improvement moved them to.
 ///
 /// \param points     grid units; those of the PLC's vertices come first
 /// \throw MeshError  writing the vertices as doubles inverts a tetrahedron: the part is too far from the origin

@@ -24,8 +24,8 @@ struct Arrangement {
   std::array<std::uint8_t, 4> places;   ///< by corner
 };
 
-/// The even permutations. Those that begin with the same corner follow each other; each next one brings the next of the
-/// other corners forward.
+/// The even permutations. Those that begin with the same corner are consecutive; each is the one before with the other
+/// corners rotated.
 constexpr std::array<Arrangement, 12> even_arrangements = [] {
   constexpr std::uint8_t first[4][4] = {{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}};
   std::array<Arrangement, 12> all{};
@@ -39,7 +39,7 @@ constexpr std::array<Arrangement, 12> even_arrangements = [] {
 }();
 
 /// The number of the even arrangement with the least vertex first and the least of the others second. No branch depends
-/// on the vertices: it would be mispredicted half of the time.
+/// on the vertices: it would be mispredicted half the time.
 unsigned arrangement_of(const Tetrahedron& t) {
   const unsigned low = t[1] < t[0] ? 1 : 0, high = t[3] < t[2] ? 3 : 2;
   const unsigned first = t[high] < t[low] ? high : low;
@@ -49,7 +49,7 @@ unsigned arrangement_of(const Tetrahedron& t) {
   return 3 * first + (d < std::min(b, c) ? 2 : second);
 }
 
-/// A tetrahedron among those with the same least vertex. They are compared by few large numbers, which is fast.
+/// A tetrahedron among those with the same least vertex. Comparing a few large numbers is fast.
 struct BucketEntry {
   std::uint64_t second_and_third;  ///< vertices
   std::uint32_t fourth;
@@ -94,7 +94,7 @@ class Parts {
   const LargeVector<Cell>& cells_;
 };
 
-/// Lists of sources, by their least vertices. The order within a list is any.
+/// Lists of sources, by their least vertices. The order within a list is arbitrary.
 struct Buckets {
   std::vector<std::uint32_t> ends;  ///< by vertex
   RawVector<std::uint32_t> sources;
@@ -116,7 +116,7 @@ Buckets group_by_least_vertex(const Parts& parts, std::size_t vertices) {
     }
   });
   for (std::size_t v = 1; v < ends.size(); ++v) ends[v] += ends[v - 1];
-  // So far each entry is where the bucket begins. Each source moves it on, to where the bucket ends.
+  // At first, each entry is where its bucket begins. Each source moves it on, finally to where the bucket ends.
   buckets.sources.resize(ends.back());
   parallel_for(parts.size(), grain, [&](std::size_t i) {
     if (least[i] != not_in_mesh) buckets.sources[add_one(ends[least[i]])] = static_cast<std::uint32_t>(i);
@@ -199,7 +199,7 @@ LargeVector<Cell> join_tetrahedra(const TetMesh& mesh, RawVector<std::uint32_t> 
   });
   // The vertices of the cells are no longer needed. The new neighbors take their place until all are found.
   for (const std::uint32_t i : of_front) cells[i].vertices = no_neighbors;
-  // Close cells are close in the order of the Delaunay cells, so this is the order of the search.
+  // Cells near each other in space are near each other in the Delaunay cells' order, so the search follows that order.
   parallel_for(cell_count, grain, [&](std::size_t c) {
     if (tetrahedron_of[c] == not_in_mesh) return;
     Tetrahedron& neighbors = cells[tetrahedron_of[c]].vertices;

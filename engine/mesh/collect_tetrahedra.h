@@ -13,23 +13,23 @@
 
 namespace ccdt::mesh {
 
-/// The attribute of all regions in the domain, if they have the same.
+/// The attribute of all regions in the domain, if they share one.
 std::optional<int> common_attribute(std::span<const plc::Region> regions);
 
 /// The constrained Delaunay tetrahedralization as a mesh, and where its tetrahedra come from.
 struct CollectedMesh {
   TetMesh mesh;
-  /// By tetrahedron: the Delaunay cell that it is, or, beyond those, the tetrahedron of the front.
+  /// By tetrahedron: its Delaunay cell; numbers beyond the cells are those of the front's tetrahedra.
   RawVector<std::uint32_t> sources;
 };
 
 /// The tetrahedra of the front and the labeled cells, with their regions unless these have a common attribute. The mesh
 /// has nothing else yet.
 ///
-/// They and the corners of each are in an order that depends on nothing but the set of tetrahedra: the mesh is the
-/// same, byte for byte, whatever strategy made it and on however many threads. The first corner of each is its least
-/// vertex. Tetrahedra that are close in space are mostly close in this order, because interior vertices are numbered
-/// along a space-filling curve.
+/// Their order, and the order of the corners of each, depends only on the set of tetrahedra: the mesh is the same, byte
+/// for byte, with any strategy and any number of threads. The first corner of each is its least vertex. Tetrahedra that
+/// are close in space are mostly close in this order, because interior vertices are numbered along a space-filling
+/// curve.
 ///
 /// \param region_of_cell  see `label::CellLabels`
 /// \param cells           of the Delaunay tetrahedralization
@@ -42,7 +42,7 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
 /// neighbors; the other neighbors are missing (`no_neighbor`).
 ///
 /// \param sources  of the tetrahedra, see `CollectedMesh`
-/// \param cells    of the Delaunay tetrahedralization; their memory is used again
+/// \param cells    of the Delaunay tetrahedralization; their memory is reused
 LargeVector<delaunay::Cell> join_tetrahedra(const TetMesh& mesh, RawVector<std::uint32_t> sources,
                                             LargeVector<delaunay::Cell> cells);
 

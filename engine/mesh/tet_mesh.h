@@ -19,7 +19,7 @@ struct TetMesh {
   std::vector<std::array<std::uint32_t, 2>> edges;  ///< edges of the mesh on segments
   std::vector<int> edge_markers;
   bool constrained_delaunay =
-      false;  ///< the mesh claims to be the constrained Delaunay tetrahedralization of its vertices
+      false;  ///< does the mesh claim to be the constrained Delaunay tetrahedralization of its vertices?
 };
 
 }  // namespace ccdt::mesh

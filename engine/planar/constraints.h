@@ -11,8 +11,9 @@
 #include "engine/planar/triangulation.h"
 
 namespace ccdt::planar {
-/// Flips from the given sides on until all of them, and all that the flips change, are locally Delaunay. A side in the
-/// stack stands for whatever edge is there when its turn comes; a flip enters all edges that it moves again.
+/// Starts at the given sides and flips until all of them, and all edges that the flips change, are locally Delaunay. A
+/// side in the stack stands for whatever edge is there when its turn comes; a flip pushes all edges that it moves
+/// again.
 template <Predicates P>
 std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
   std::size_t flips = 0;
@@ -23,8 +24,8 @@ std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, c
     ++work_done.edges_tested;
     const VertexId a = edge_start(t, s), b = edge_end(t, s), c = apex(t, s), d = apex(t, other_side(t, s));
     if (predicates.incircle(a, b, c, d) <= 0) continue;
-    // Exact predicates of one plane imply this. It keeps the triangles valid if the caller's predicates are only nearly
-    // those of a plane.
+    // Exact predicates in one plane never fail this test. It keeps the triangles valid if the caller's predicates are
+    // only nearly those of a plane.
     if (predicates.orient(c, a, d) <= 0 || predicates.orient(d, b, c) <= 0) continue;
     for (Side outer : flip(t, s)) stack.push_back(pack(outer));
     ++flips;
@@ -81,7 +82,7 @@ inline bool is_within(const std::array<int, 3>& signs) {
   return signs[0] >= 0 && signs[1] >= 0 && signs[2] >= 0;
 }
 
-/// A triangle that holds v, or none. Walks; if the walk meets a border or takes too long, all triangles are
+/// A triangle that holds v, or none. Found by a walk; if it meets a border or takes too long, all triangles are
 /// searched.
 template <Predicates P>
 std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
@@ -106,7 +107,7 @@ std::uint32_t locate(const Triangulation& t, VertexId v, const P& predicates) {
 /// How the ray from a vertex a toward b leaves the triangles around a.
 struct RayExit {
   enum class Kind { nowhere, along_edge, through_edge } kind = Kind::nowhere;
-  Side side;     ///< the edge that it runs along, or through which it leaves (seen from inside)
+  Side side;     ///< the edge that it runs along or leaves through (seen from inside)
   VertexId end;  ///< the far end of the edge that it runs along
 };
 
@@ -135,7 +136,7 @@ struct Channel {
   std::vector<std::uint32_t> triangles;  ///< from start to end
   /// The edges of these triangles that are not crossed, from start to end, seen from inside.
   std::vector<Side> left, right;
-  VertexId end;   ///< the vertex on the line where the channel ends; none: there is an obstacle
+  VertexId end;   ///< the vertex on the line where the channel ends; none if there is an obstacle
   Side obstacle;  ///< a constrained or border edge that is crossed
 };
 
@@ -166,8 +167,8 @@ Channel walk_channel(const Triangulation& t, VertexId a, VertexId b, Side crosse
   }
 }
 
-/// Triangulates what lies between a chain of edges and the straight line from its start to its end, which sees all of
-/// the chain: whenever the last two edges of the chain so far turn toward the line, their triangle is cut off
+/// Triangulates the polygon between a chain of edges and the straight line from its start to its end, which sees the
+/// whole chain: whenever the last two edges of the chain so far turn toward the line, their triangle is cut off
 /// (Toussaint & Avis 1982 on polygons that are visible from an edge). `turn` is +1 for a chain on the right of the
 /// line, -1 on the left.
 template <Predicates P>
@@ -189,8 +190,8 @@ void triangulate_beside(const std::vector<VertexId>& chain, int turn, const P& p
   }
 }
 
-/// Clears the channel for the edge from its start to its end: afterwards that is an edge, and the triangles on both
-/// sides are some triangulation.
+/// Clears the channel for the edge from its start to its end: this becomes an edge, with an arbitrary triangulation on
+/// both sides.
 template <Predicates P>
 void cut_through(Triangulation& t, VertexId a, const Channel& channel, const P& predicates) {
   std::vector<std::array<VertexId, 3>> triangles;
@@ -206,7 +207,7 @@ void cut_through(Triangulation& t, VertexId a, const Channel& channel, const P& 
   replace_channel(t, channel.triangles, border, triangles);
 }
 
-/// An edge of the triangulation and the number of the edge of the input that it is a part of.
+/// An edge of the triangulation, and the number of the input edge that it is part of.
 struct NumberedPart {
   Edge edge;
   std::size_t number;
@@ -220,7 +221,7 @@ inline std::size_t number_of_part(const std::vector<NumberedPart>& parts, Edge e
   throw std::logic_error("a constrained edge comes from no edge of the input");
 }
 
-/// Inserts all edges. If two cross, the result says so and has no triangulation.
+/// Inserts all edges. If two edges cross, the result says so and has no triangulation.
 template <Predicates P>
 void insert_edges(TriangulationResult& result, std::span<const Edge> edges, const P& predicates) {
   std::vector<NumberedPart> parts;

@@ -12,9 +12,9 @@
 #include "engine/planar/triangulation.h"
 
 namespace ccdt::planar {
-/// The vertices in the order in which a line sweeps over them that turns counterclockwise around a corner of their
-/// convex hull, the *pole*. A projective map that sends the pole to infinity makes it the order from left to right, and
-/// among vertices on one ray from bottom (far from the pole) to top. Such a map keeps the signs of `orient`. So an
+/// The vertices in the order in which a line sweeps over them, turning counterclockwise around a corner of their convex
+/// hull, the *pole*. A projective map that sends the pole to infinity makes this the order from left to right and,
+/// among vertices on one ray, from bottom (far from the pole) to top. Such a map keeps the signs of `orient`. So an
 /// algorithm that needs vertices sorted by coordinates and separated by vertical lines can use this order, without
 /// coordinates.
 struct SweepOrder {
@@ -25,7 +25,7 @@ struct SweepOrder {
 };
 
 /// Three vertices that are not collinear, or nothing if there are none. (If the first vertices are all at one place,
-/// only a limited number is tried as the second: then `nothing` may be wrong.)
+/// only a limited number are tried as the second, so the answer "nothing" may be wrong.)
 template <Predicates P>
 std::optional<std::array<VertexId, 3>> find_triangle(std::span<const VertexId> vertices, const P& predicates) {
   constexpr std::size_t most_tries = 16;
@@ -39,7 +39,7 @@ std::optional<std::array<VertexId, 3>> find_triangle(std::span<const VertexId> v
   return std::nullopt;
 }
 
-/// Of the vertices on the line through from and to, the last one in the direction from `to` to `from`.
+/// The last vertex on the line through `from` and `to`, in the direction from `to` to `from`.
 template <Predicates P>
 VertexId last_on_line(std::span<const VertexId> vertices, VertexId from, VertexId to, VertexId off_line,
                       const P& predicates) {
@@ -291,8 +291,8 @@ class DivideAndConquer {
     }
   }
 
-  /// The edge up from an end of the base to the vertex that makes a Delaunay triangle with the base among those on that
-  /// side; edges in the way are removed.
+  /// The edge from an end of the base up to the vertex, on that side, that makes a Delaunay triangle with the base.
+  /// Edges in the way are removed.
   ///
   /// \param from    the base as an edge out of that end
   /// \param around  turns about that end, from the base upward

@@ -27,7 +27,7 @@ Points::Points(std::span<const Point2> points) {
 
 int Points::orient(VertexId a, VertexId b, VertexId c) const {
   const GridPoint &p = grid_[a], &q = grid_[b], &r = grid_[c];
-  // Coordinates of 26 bits: products of 52 bits.
+  // Coordinates have 26 bits, so products have 52 bits.
   return sign_of((q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x));
 }
 
@@ -48,7 +48,7 @@ int Points::incircle(VertexId a, VertexId b, VertexId c, VertexId d) const {
   if (determinant != 0) return sign_of(determinant);
 
   // Raising the height of one vertex by a small amount changes the determinant by that amount times the area of the
-  // other three, for d with the opposite sign as it is what the others are measured from.
+  // other three. For d the sign is opposite, because the others are measured from it.
   std::array<std::pair<VertexId, int>, 4> changes{
       {{a, orient(b, c, d)}, {b, orient(c, a, d)}, {c, orient(a, b, d)}, {d, -orient(a, b, c)}}};
   std::sort(changes.begin(), changes.end());

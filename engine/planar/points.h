@@ -15,9 +15,9 @@ struct Point2 {
 /// Points in a plane as a model of `Predicates`: vertex i is point i.
 ///
 /// The points are rounded to a square grid of 2^26 cells across their bounding box (a relative change of at most 2^-27;
-/// points nearer to each other than that may coincide). On the grid both predicates are exact. Where they would be
-/// zero, `incircle` is decided by the ids (the lifted height of a vertex is raised by an infinitesimal amount,
-/// infinitely more for a smaller id), so the constrained Delaunay triangulation is unique.
+/// points closer than this may coincide). On the grid both predicates are exact. Where they would be zero, `incircle`
+/// is decided by the ids (the lifted height of a vertex is raised by an infinitesimal amount, infinitely more for a
+/// smaller id), so the constrained Delaunay triangulation is unique.
 class Points {
  public:
   explicit Points(std::span<const Point2> points);

@@ -106,8 +106,7 @@ std::array<Side, 4> flip(Triangulation& t, Side s) {
   t.triangles[o.triangle] = {d, b, c};
   t.triangle_of_vertex.set(a, s.triangle);
   t.triangle_of_vertex.set(b, o.triangle);
-  // The triangles may be neighbors of each other across a second edge only if a vertex lies on that edge's line:
-  // never.
+  // The triangles could be neighbors across a second edge only if a vertex were on that edge's line: never.
   attach(t, {s.triangle, 2}, ca);
   attach(t, {s.triangle, 0}, ad);
   attach(t, {o.triangle, 2}, db);
@@ -136,7 +135,7 @@ void replace_channel(Triangulation& t, const std::vector<std::uint32_t>& channel
   for (const BorderEdge& edge : edges) {
     const Side s = *sides.find(edge.from, edge.to);
     if (sides.find(edge.to, edge.from)) {
-      // A spike: an edge that is not crossed but has the channel on both its sides. Only its constraint must be kept.
+      // A spike: an edge that is not crossed but has the channel on both sides. Only its constraint must be kept.
       set_constrained(t, s, edge.across.constrained);
     } else {
       attach(t, s, edge.across);
@@ -194,8 +193,8 @@ std::optional<Side> find_edge(const Triangulation& t, VertexId a, VertexId b) {
     if (edge_start(t, after) == b) found = after;
     return found.has_value();
   };
-  // A border edge would have been in the table, so the edge is met in every fan that it can be in: each of its ends has
-  // one fan with it, and at a pinched vertex the search continues through all triangles.
+  // A border edge would have been in the table, so this is an inner edge, which is in one fan of each of its ends. At a
+  // pinched vertex, the search continues through all triangles.
   visit_star(t, a, has_edge);
   return found;
 }
@@ -225,7 +224,7 @@ std::vector<Edge> border_edges(const Triangulation& t) {
 
 namespace {
 
-/// Spreads from the triangles in `stack`, which are marked, over all that are unmarked and not behind a constraint;
+/// Spreads from the triangles in `stack`, which are marked, over all unmarked ones that are not behind a constraint;
 /// returns the unmarked triangles behind constraints.
 template <class IsMarked, class Mark>
 std::vector<std::uint32_t> flood(const Triangulation& t, std::vector<std::uint32_t> stack, IsMarked is_marked,

@@ -29,13 +29,13 @@ concept Predicates = requires(const P& p, VertexId v) {
 /// An edge by its two ends, in any order.
 using Edge = std::array<VertexId, 2>;
 
-/// One side of an edge: the triangle, and its corner opposite to the edge.
+/// One side of an edge: the triangle, and its corner opposite the edge.
 struct Side {
   std::uint32_t triangle = 0;
   std::uint32_t corner = 0;
 };
 
-/// From vertices or edges of one facet to a position in its arrays. A facet knows only a few of the vertices of the
+/// Maps a vertex or edge of one facet to a position in its arrays. A facet knows only a few of the vertices of the
 /// whole complex, so it cannot afford an array over all ids.
 using Table = HashTable<std::uint64_t, std::uint32_t>;
 
@@ -193,7 +193,8 @@ void set_corners(Triangulation& t, std::uint32_t triangle, VertexId a, VertexId 
 ///        d                  d
 std::array<Side, 4> flip(Triangulation& t, Side s);
 
-/// Replaces the triangles of the channel by as many new ones, and joins them to each other and to their surroundings.
+/// Replaces the triangles of the channel by equally many new ones, and joins them to each other and to their
+/// surroundings.
 /// \param border  the sides of the channel's triangles that are not crossed
 void replace_channel(Triangulation& t, const std::vector<std::uint32_t>& channel, const std::vector<Side>& border,
                      const std::vector<std::array<VertexId, 3>>& triangles);
@@ -222,7 +223,7 @@ bool visit_fan(const Triangulation& t, VertexId v, Visit visit) {
   return false;
 }
 
-/// The same for all triangles around v: at a pinched vertex all triangles are searched if the first fan has no answer.
+/// The same for all triangles around v: at a pinched vertex, all triangles are searched if the first fan has no answer.
 template <class Visit>
 bool visit_star(const Triangulation& t, VertexId v, Visit visit) {
   bool at_border = false;

@@ -12,7 +12,7 @@ namespace ccdt::planar {
 
 /// The triangulation that consists of these triangles, all counterclockwise in the caller's plane. Nothing is flipped.
 ///
-/// \param room  memory is reserved for this many further triangles
+/// \param room  memory is reserved for this many more triangles
 /// \throw Defect  an edge with more than two triangles, or two triangles on the same side of an edge; or a
 ///                      constrained edge that no triangle has
 Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
@@ -49,8 +49,8 @@ std::size_t legalize(Triangulation& t, const P& predicates);
 template <Predicates P>
 bool split_edge(Triangulation& t, VertexId a, VertexId b, VertexId v, const P& predicates);
 
-/// Makes ab a constrained edge, or a chain of such where vertices lie exactly on it, and legalizes around it. a and b
-/// must be different vertices of the triangulation.
+/// Makes ab a constrained edge, or a chain of these where vertices lie exactly on it, and legalizes around it. a and b
+/// must be distinct vertices of the triangulation.
 template <Predicates P>
 ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, const P& predicates);
 
@@ -61,7 +61,7 @@ ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, con
 /// any input. Then the edges are inserted one by one and the rest is carved.
 ///
 /// Vertices on edges split them; edges may overlap and repeat; an edge from a vertex to itself counts for nothing.
-/// \throw std::invalid_argument  an edge's end that is not among the vertices
+/// \throw std::invalid_argument  an edge's end is not among the vertices
 template <Predicates P>
 TriangulationResult triangulate(std::span<const VertexId> vertices, std::span<const Edge> edges, const P& predicates,
                                 const Carving& carving = {});

@@ -26,7 +26,7 @@ void check_facets_exist(const InputPlc& input) {
   throw InputError("there are no facets", {.file = input.name}, "give a surface, or a .poly or .smesh with facets");
 }
 
-/// Stops at the first thing that is wrong.
+/// Stops at the first error.
 struct StrictExaminer : Examiner {
   const Progress& progress;
 
@@ -44,7 +44,7 @@ struct StrictExaminer : Examiner {
   }
 };
 
-// Is a sector of the domain of 180 degrees or more around the edge?
+// Does the domain span 180 degrees or more around the edge?
 bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
   const auto around = parts.edges.sides_around(e);
   const auto is_inside = [&](std::size_t i) { return map.regions[map.of_side[around[i]]].inside; };

@@ -28,8 +28,8 @@ class RoundedPlane {
 
   const Point3& normal() const { return normal_; }
 
-  /// The side that a point is certainly on; 0: not known. Differences of points are exact and at most 2^52 + 2^21, and
-  /// each product in the normal takes part in five roundings. So the error is below 2.51 times the sum of their
+  /// The side that a point is certainly on; 0 if not known. Differences of points are exact and at most 2^52 + 2^21,
+  /// and each product in the normal takes part in five roundings. So the error is below 2.51 times the sum of their
   /// magnitudes.
   int side_of(const Point3& p) const {
     const double height = dot(normal_, p - point_);
@@ -56,7 +56,8 @@ class TrianglePairs {
     VertexTriple s = triangles_[i], t = triangles_[j];
     const int common = put_common_first(s, t);
     if (common == 3) return true;
-    // Triangles in one plane are seen along the same axis. Of two others, one may touch the other's plane from a side.
+    // Triangles in one plane are projected along the same axis. Otherwise, one may touch the other's plane from one
+    // side.
     const std::array<Point3, 3> p = points_of(vertices_, s), q = points_of(vertices_, t);
     const int axis = dominant_axis(planes_[i].normal()), other_axis = dominant_axis(planes_[j].normal());
     return are_apart_seen_along(axis, p, q, common) ||
@@ -97,7 +98,7 @@ std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices,
   std::vector<std::uint32_t> all(triangles.size()), doubtful;
   std::iota(all.begin(), all.end(), 0u);
   std::ranges::copy_if(all, std::back_inserter(doubtful), may_cross);
-  // To look for all around a few is faster than to make a tree of all.
+  // If few are doubtful, searching a tree of these for each triangle is faster than making a tree of all.
   constexpr std::size_t triangles_for_one = 64;
   const bool are_few = doubtful.size() < all.size() / triangles_for_one;
   const std::vector<std::uint32_t>&in_tree = are_few ? doubtful : all, &sought = are_few ? all : doubtful;
@@ -112,7 +113,7 @@ std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices,
           const std::uint32_t s = sought[i];
           tree.for_each_meeting(box(s), [&](std::uint32_t place) {
             const std::uint32_t t = in_tree[place];
-            if (t == s || (t < s && may_cross(s) && may_cross(t))) return;  // the pair is found at the other one
+            if (t == s || (t < s && may_cross(s) && may_cross(t))) return;  // the pair is found from t
             if (!pairs.are_apart(s, t)) found.push_back({s, t});
           });
         }

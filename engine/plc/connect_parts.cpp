@@ -13,7 +13,7 @@ namespace ccdt::plc {
 
 namespace {
 
-// By triangle: is it not known to be a face of the complex? Empty: no triangle is known to be one.
+// By triangle: is it not known to be a face of the complex? Empty if none is known to be one.
 std::vector<std::uint8_t> find_doubtful(const TriangleSet& triangles) {
   std::vector<std::uint8_t> is_doubtful;
   if (std::ranges::all_of(triangles.faces, [](std::uint32_t face) { return face == no_face; })) return is_doubtful;

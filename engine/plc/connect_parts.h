@@ -16,12 +16,12 @@ namespace ccdt::plc {
 
 /// Splits triangles at the vertices that are on them, exactly.
 ///
-/// \param triangles  different, with an area. Those that are known to be faces of one simplicial complex have nothing
-///                   in common but corners and edges, and no vertex is on one: they are not tested with each other
+/// \param triangles  different, with an area. Those known to be faces of one simplicial complex are not tested against
+///                   each other: they share only corners and edges, and no vertex is on one
 /// \return  the pairs that may still have more in common than corners and edges
 std::vector<TrianglePair> make_conforming(std::span<const Point3> vertices, TriangleSet& triangles);
 
-/// The pairs that meet in more than common vertices and edges.
+/// The pairs that have more in common than vertices and edges.
 struct Overlaps {
   std::vector<Overlap> covering;  ///< of triangles on one side of a common edge
   std::vector<Overlap> crossing;  ///< of other triangles
@@ -36,7 +36,7 @@ struct ConnectedParts {
   std::optional<BoxTree> tree;  ///< over the boxes of the triangles, made only where it pays
 };
 
-/// Connects triangles and segments by their edges, finds facets, and everything that overlaps.
+/// Connects triangles and segments by their edges, and finds facets and everything that overlaps.
 ///
 /// \param triangles, close  as `make_conforming` leaves them
 /// \param segments          split at the vertices that are on them

@@ -10,7 +10,7 @@
 namespace ccdt::plc {
 namespace {
 
-/// Of all polygons. Holes count as well, which does not matter for an order of magnitude.
+/// The area of all polygons. Holes are included, which is fine for an order of magnitude.
 ///
 /// \param unit  of length
 double area_of(const InputPlc& input, double unit) {
@@ -43,7 +43,7 @@ double longest_edge(const InputPlc& input) {
   if (input.vertices.empty()) return 0;
   const Box box = bounding_box(input.vertices);
   const Point3 diagonal = box.high - box.low;
-  // Squares of the smallest and of the largest numbers are not numbers.
+  // Squares of the smallest and largest numbers underflow or overflow.
   int exponent = 0;
   std::frexp(std::max({diagonal.x, diagonal.y, diagonal.z}), &exponent);
   const auto scaled = [&](double x) { return std::ldexp(x, -exponent); };

@@ -17,7 +17,7 @@ inline constexpr double most_vertices = 4294967295.0;
 /// The diagonal of the bounding box: no edge is longer.
 double longest_edge(const InputPlc& input);
 
-/// \throw LimitError  an even surface with edges of this length has too many vertices
+/// \throw LimitError  even triangles with edges of this length would have too many vertices
 void check_edges_of_surface(const InputPlc& input, double edge_length);
 
 }  // namespace ccdt::plc

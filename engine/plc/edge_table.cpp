@@ -21,7 +21,7 @@ bool on_same_side(const Point3& a, const Point3& b, const Point3& c, const Point
   return orient_along(axis, a, b, c) == orient_along(axis, a, b, d);
 }
 
-// A facet is near another only by their angle, and angles of narrow triangles are not reliable.
+// Two facets at an edge are close only because of their angle, and angles of narrow triangles are not reliable.
 constexpr double reliable_heights = 100;  // tolerances
 
 bool nearly_cover(const Point3& a, const Point3& b, const Point3& c, const Point3& d, double tolerance) {
@@ -33,17 +33,17 @@ bool nearly_cover(const Point3& a, const Point3& b, const Point3& c, const Point
   return std::fabs(dot(m, d - a)) <= tolerance * std::sqrt(mm) && std::fabs(dot(n, c - a)) <= tolerance * std::sqrt(nn);
 }
 
-// A point of both triangles abc and abd, which are on the same side of ab: from the middle of the edge inwards until it
-// is in both.
+// A point in both triangles abc and abd, which are on the same side of ab: starts at the middle of the edge and moves
+// inward until it is in both.
 Point3 common_point(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  const Point3 middle = 0.5 * (a + b), inwards = 0.5 * (c + d) - middle;
+  const Point3 middle = 0.5 * (a + b), inward = 0.5 * (c + d) - middle;
   const auto holds = [&](const Point3& apex, const Point3& p) {
     const Point3 normal = cross(b - a, apex - a);
     return dot(normal, cross(apex - b, p - b)) >= 0 && dot(normal, cross(a - apex, p - apex)) >= 0;
   };
   double step = 0.5;
-  while (step > 1e-6 && !(holds(c, middle + step * inwards) && holds(d, middle + step * inwards))) step *= 0.5;
-  return middle + step * inwards;
+  while (step > 1e-6 && !(holds(c, middle + step * inward) && holds(d, middle + step * inward))) step *= 0.5;
+  return middle + step * inward;
 }
 
 /// The edges of triangles by their smaller ends: those of vertex v are entries[first[v]] ... entries[first[v+1]-1],
@@ -53,7 +53,7 @@ struct TriangleEdges {
   /// The greater end, then 3 * triangle + corner, then whether the triangle runs along the edge from the greater end.
   RawVector<std::uint64_t> entries;
 
-  /// Is the edge in this place not the one before?
+  /// Does the edge in this place differ from the one before?
   bool is_new(std::size_t v, std::uint32_t i) const {
     return i == first[v] || entries[i] >> 32 != entries[i - 1] >> 32;
   }
@@ -74,7 +74,7 @@ TriangleEdges gather_edges(std::span<const VertexTriple> triangles) {
   };
   const AddOne add_one;
   for_each([&](std::size_t, VertexId a, VertexId b) { add_one(first[2 + std::min(a, b)]); });
-  // The beginnings, one place too far. Filling moves each to its end, which is the beginning of the next.
+  // Each list's beginning, stored one place too far. Filling moves it to the list's end, the next one's beginning.
   std::partial_sum(first.begin(), first.end(), first.begin());
   for_each([&](std::size_t slot, VertexId a, VertexId b) {
     entries[add_one(first[1 + std::min(a, b)])] = std::uint64_t{std::max(a, b)} << 32 | 2 * slot | (a < b ? 0 : 1);

@@ -15,7 +15,7 @@ namespace ccdt::plc {
 /// The corners of a triangle.
 using VertexTriple = std::array<VertexId, 3>;
 
-/// All facets of the input as triangles; arrays indexed alike by the triangle.
+/// All facets of the input as triangles; all arrays are indexed by triangle.
 struct TriangleSet {
   std::vector<VertexTriple> corners;
   std::vector<int> markers;
@@ -36,7 +36,7 @@ struct TriangleSet {
   }
 };
 
-/// The segments that the input itself lists; arrays indexed alike.
+/// The segments that the input itself lists; all arrays are indexed by segment.
 struct SegmentSet {
   std::vector<std::array<VertexId, 2>> ends;
   std::vector<int> markers;
@@ -88,18 +88,18 @@ constexpr std::uint32_t opposite_of(std::uint32_t side) {
 /// An angle, exactly classified.
 enum class Turn : std::uint8_t { unknown, zero, below_180, exactly_180, above_180 };
 
-/// Two triangles or segments that meet in more than common vertices and edges, and such a point in grid units.
+/// Two triangles or segments that share more than vertices and edges, and a shared point in grid units.
 struct Overlap {
   enum class Between { facets, covering_facets, facet_and_segment, segments };
   Between between;
-  std::uint32_t first, second;  ///< triangles or segments, as `between` says
+  std::uint32_t first, second;  ///< triangles or segments, depending on `between`
   Point3 where;
 };
 
 /// The edges of a set of triangles, sorted by their ends, each with the triangles around it.
 ///
-/// Of each triangle, an edge knows the side that the next sector is on, counterclockwise about the edge from its
-/// smaller end to its greater. It is the upper side if the triangle runs along the edge that way.
+/// For each of its triangles, an edge knows the side that the next sector is on, counterclockwise about the edge from
+/// its smaller end to its greater one. It is the upper side if the triangle runs along the edge in that direction.
 struct EdgeTable {
   std::vector<std::array<VertexId, 2>> ends;           ///< of each edge, the smaller first
   std::vector<std::uint32_t> first;                    ///< the sides of edge e: sides[first[e]] ... sides[first[e+1]-1]
@@ -135,15 +135,15 @@ SegmentMatch match_segments(const SegmentSet& segments, const EdgeTable& edges);
 /// Corrects the table after two corners of the triangle were exchanged.
 void note_turned(std::uint32_t triangle, EdgeTable& edges);
 
-/// The angle by which one must turn about the axis a->b, counterclockwise seen from b, to come from c to d.
+/// The angle of the turn about the axis a->b, counterclockwise seen from b, that takes c to d.
 Turn turn_about(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// Sorts the triangles around each edge of three or more by angle, counterclockwise about the axis from its smaller end
-/// to its greater, and finds the angle at edges of two where `find_facets` has not.
+/// to its greater one, and finds the angles at edges of two that `find_facets` has not found.
 ///
 /// \param is_inner_edge  edges within one facet: they have two triangles and are skipped
-/// \param tolerance      in grid units; two facets on the same side of an edge and this near to each other cover each
-///                       other. At most the tolerances that `find_facets` had
+/// \param tolerance      in grid units; two facets on the same side of an edge cover each other if they are this near.
+///                       At most the tolerances that `find_facets` had
 /// \return pairs of triangles that cover each other, at most `limit`; if it is reached, not all edges are sorted
 std::vector<Overlap> sort_around_edges(std::span<const Point3> vertices, const TriangleSet& triangles,
                                        const std::vector<char>& is_inner_edge, double tolerance, EdgeTable& edges,

@@ -116,10 +116,10 @@ class PatchFinder {
     return fitted;
   }
 
-  // The angle between the two triangles at an edge, if it is so clear that neither may be in the plane of the other:
+  // The turn between the two triangles at an edge, if it is so clear that neither can be in the plane of the other:
   // both heights, which are the same volume over different areas, are above the tolerance. Otherwise unknown.
   Turn clear_turn(std::uint32_t e) const {
-    constexpr double rounding = 64;  // grid units; far more than that of heights here, in `find_turn` and elsewhere
+    constexpr double rounding = 64;  // grid units; heights are rounded by far less, here and in `find_turn`
     const auto sides = edges_.sides_around(e);
     const std::uint32_t s = triangle_of(sides[0]), t = triangle_of(sides[1]);
     const auto [a, b] = edges_.ends[e];
@@ -131,8 +131,8 @@ class PatchFinder {
     return (volume > 0) == is_above(sides[0]) ? Turn::below_180 : Turn::above_180;
   }
 
-  // Most triangles of a curved surface are facets of their own. They are found before patches grow. A triangle that
-  // would take in its neighbor at some edge is none of them.
+  // Most triangles of a curved surface are separate facets. They are found before patches grow. A triangle is lonely
+  // unless its patch would take in the neighbor at some edge.
   bool is_lonely(std::uint32_t t) const {
     return std::ranges::none_of(edges_.edges_of[t], [&](std::uint32_t e) {
       return may_cross_[e] && edges_.turns[e] == Turn::unknown &&
@@ -198,8 +198,8 @@ class PatchFinder {
     return turn.has_value();
   }
 
-  // Must the neighbor of a triangle that is turned, or not, be turned to belong to the patch? None if it does not
-  // belong there.
+  // Must the neighbor of a triangle be turned to belong to the patch, given whether the triangle is turned? None if it
+  // does not belong there.
   std::optional<bool> find_turn(std::uint32_t next, std::uint32_t e, std::uint32_t t, bool is_turned,
                                 const Plane& plane) const {
     const auto [a, b] = edges_.ends[e];
@@ -276,7 +276,7 @@ class PatchFinder {
   TriangleSet& triangles_;
   EdgeTable& edges_;
   std::span<const double> tolerances_;  // of the triangles
-  std::vector<Point3> normals_;         // as the input orients the triangles
+  std::vector<Point3> normals_;         // of the triangles as oriented in the input
   std::vector<std::uint32_t> facet_of_;
   std::vector<char> turned_;
   std::vector<std::uint32_t> round_of_;  // the last round of growing that reached the triangle

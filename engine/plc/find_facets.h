@@ -23,15 +23,16 @@ struct FacetPatches {
 /// Finds patches of triangles that are flat, exactly or within a tolerance, and orients the triangles of each patch
 /// counterclockwise as seen from one side.
 ///
-/// A patch grows from its largest triangle over edges that have exactly two triangles, of one marker, and are no input
-/// segment. It never folds: every triangle is counterclockwise when the patch is projected along the dominant axis of
-/// its plane.
+/// A patch grows from its largest triangle over edges that have exactly two triangles, both with the same marker, and
+/// are not input segments. It never folds: every triangle is counterclockwise when projected along the dominant axis of
+/// the patch's plane.
 ///
 /// \param vertices    in grid units
-/// \param triangles   two corners of a triangle may be exchanged
-/// \param edges       follow them, and get their clear `turns`
+/// \param triangles   two corners of a triangle may get exchanged
+/// \param edges       follow the triangles' corners, and get their clear `turns`
 /// \param segment_of  of each edge: the segment of the input that it is, or `none`
-/// \param tolerances  of the triangles, in grid units; their vertices are this near to the plane of their patch
+/// \param tolerances  of the triangles, in grid units; their vertices are at most this far from the plane of their
+///                    patch
 FacetPatches find_facets(std::span<const Point3> vertices, TriangleSet& triangles, EdgeTable& edges,
                          std::span<const std::uint32_t> segment_of, std::span<const double> tolerances);
 

@@ -11,15 +11,14 @@
 
 namespace ccdt::plc {
 
-/// All pairs of triangles, at most `limit`, that meet in more than common vertices and edges. `sort_around_edges`
-/// handles pairs with a common edge. Pairs within a facet that is flat only within the tolerance are left out: its tiny
-/// folds are not overlaps.
+/// All pairs of triangles, at most `limit`, that share more than vertices and edges. `sort_around_edges` handles pairs
+/// with a common edge. Pairs within a nearly flat facet are left out: its tiny folds are not overlaps.
 ///
 /// \param close  of the triangles
 std::vector<Overlap> find_overlaps(std::span<const Point3> vertices, const TriangleSet& triangles,
                                    const FacetPatches& facets, std::span<const TrianglePair> close, std::size_t limit);
 
-/// The same for segments that are not edges of triangles, with triangles and with each other.
+/// The same for segments that are not edges of triangles, against triangles and against each other.
 ///
 /// \param loose  the indices of those segments
 /// \param tree   over the boxes of the triangles

@@ -48,7 +48,7 @@ int side_of_moved(const IntegerPoint& p, const IntegerPoint& q, const IntegerPoi
 // A triangle over the start of the ray, with its height there as a fraction.
 struct Crossing {
   std::uint32_t triangle;
-  WideVector normal;  // turned upwards
+  WideVector normal;  // turned upward
   bool turned;
   VeryWide height;  // sixfold, times normal[2]
 };
@@ -58,7 +58,7 @@ int compare_products(const VeryWide& a, const VeryWide& b, const VeryWide& c, co
   return left < right ? -1 : left > right ? 1 : 0;
 }
 
-// Lower at the start of the ray or, where both are equal, after the move aside.
+// Is a lower at the start of the ray or, if both are equal, after the move aside?
 bool is_lower(const Crossing& a, const Crossing& b) {
   const VeryWide az = a.normal[2], bz = b.normal[2];
   int sign = compare_products(a.height, bz, b.height, az);
@@ -67,14 +67,14 @@ bool is_lower(const Crossing& a, const Crossing& b) {
   return sign < 0;
 }
 
-Box box_above(const IntegerPoint& sixfold, bool upwards) {
+Box box_above(const IntegerPoint& sixfold, bool upward) {
   const double scale = DyadicGrid::quantum / 6,
                slack = DyadicGrid::quantum;  // more than the rounding of this box
   const Point3 p = {scale * static_cast<double>(sixfold[0]), scale * static_cast<double>(sixfold[1]),
                     scale * static_cast<double>(sixfold[2])};
   const Point3 margin = {slack, slack, slack};
   Box box = {p - margin, p + margin};
-  if (upwards) box.high.z = std::numeric_limits<double>::infinity();
+  if (upward) box.high.z = std::numeric_limits<double>::infinity();
   return box;
 }
 
@@ -86,10 +86,11 @@ struct RayHit {
 
 // Shoots rays straight up (+z) through a set of triangles that do not cross each other, exactly. A ray is moved aside
 // by an infinitesimal step in x and an infinitely smaller one in y, so that it passes no edge, no vertex and no upright
-// triangle. It starts from a point that is given as six times its quanta: a mean of up to three vertices.
+// triangle. Its start is a mean of up to three vertices, given in sixths of a quantum.
 class VerticalRays {
  public:
-  // \param tree  over the boxes of the triangles; none: all are looked at for each ray. All three must outlive this
+  // \param tree  over the boxes of the triangles; without it, all are looked at for each ray. All three must outlive
+  //              this
   VerticalRays(std::span<const Point3> vertices, const TriangleSet& triangles, const std::optional<BoxTree>& tree)
       : vertices_(vertices), triangles_(triangles), tree_(tree) {}
 
@@ -115,8 +116,7 @@ class VerticalRays {
     return hits;
   }
 
-  // Is the start of a ray, once moved aside (or, where the triangle is not upright, raised), above this triangle that
-  // holds it?
+  // Is the start of a ray on this triangle above it, once moved aside (or, if the triangle is not upright, raised)?
   bool leaves_above(std::uint32_t triangle) const {
     const WideVector n = exact_normal(points_of(vertices_, triangles_.corners[triangle]));
     if (n[2] != 0) return n[2] > 0;
@@ -150,10 +150,10 @@ class VerticalRays {
   const std::optional<BoxTree>& tree_;
 };
 
-// The sides that see each other through the sector between two triangles. Within a facet, a tiny fold between the two
-// does not matter.
+// Joins the sides that see each other through the sector between two triangles. Within a facet, a tiny fold between the
+// two does not matter.
 //
-// \return sets of sides, and after them infinity, alone
+// \return sets of sides, and after them a set for infinity
 SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& edges) {
   SharedUnionFind sides(2 * std::size_t{triangles} + 1);
   parallel_for(edges.size(), at_once, [&](std::size_t e) {
@@ -164,7 +164,7 @@ SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& e
   return sides;
 }
 
-// Triangles that are connected by edges. Those around an edge see each other through its sectors.
+// The sets of triangles connected by edges. Triangles around an edge see each other through its sectors.
 SharedUnionFind components_of(std::uint32_t triangles, SharedUnionFind& sides) {
   SharedUnionFind components(triangles);
   parallel_for(triangles, at_once, [&](std::size_t i) {
@@ -175,7 +175,7 @@ SharedUnionFind components_of(std::uint32_t triangles, SharedUnionFind& sides) {
 }
 
 // One ray per component suffices: the sides of one component that see the same connected part of space are joined
-// already. So on the way from a component up to whatever encloses it, every crossed component joins its outermost side.
+// already. So on the way up from a component to whatever encloses it, every crossed component joins its outermost side.
 RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, SharedUnionFind& sides,
                        SharedUnionFind& components, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
@@ -221,7 +221,7 @@ RegionId region_at(const RegionMap& map, const VerticalRays& rays, const Integer
 
 constexpr const char* seed_remedy = "move the seed into the part of space that it is for, or remove it";
 
-// \return  0: outside of everything that the facets enclose
+// \return  0 outside everything that the facets enclose
 RegionId region_of_seed(const Plc& plc, const TriangleSet& triangles, const VerticalRays& rays, const RegionMap& map,
                         const Point3& seed, const std::string& name) {
   // Seeds beyond the box of the vertices may not fit the grid.

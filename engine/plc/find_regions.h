@@ -21,11 +21,11 @@ struct PlcParts {
   FacetPatches patches;
 };
 
-/// The regions into which the triangles divide space.
+/// The regions that the triangles divide space into.
 struct RegionMap {
   /// Of each `side_of` a triangle.
   std::vector<RegionId> of_side;
-  std::vector<Region> regions;  ///< number 0 reaches infinity; the others follow in the order of their first side
+  std::vector<Region> regions;  ///< region 0 reaches infinity; the others follow in the order of their first side
   /// For each region except 0, the region that contains the connected facets enclosing it.
   std::vector<RegionId> around;
   std::vector<RegionId> of_loose;  ///< of each of `PlcParts::match.loose`: where the middle of the segment is
@@ -34,9 +34,9 @@ struct RegionMap {
   RegionId of(std::uint32_t triangle, bool above) const { return of_side[side_of(triangle, above)]; }
 };
 
-/// Finds the regions: joins the sides of triangles that see each other through the sectors around each edge, then, as
-/// facets that are connected by edges may be nested in others, through rays from one component to the next. Marks what
-/// is inside, as the input's kind says, and gives the regions the attributes of their seeds.
+/// Finds the regions. First joins the sides of triangles that see each other through the sectors around each edge.
+/// Then, since a connected component of facets may be nested in others, joins sides by rays from one component to the
+/// next. Marks what is inside, according to the input's kind, and gives the regions the attributes of their seeds.
 ///
 /// \param tree  over the boxes of the triangles; made if it is missing and would be used often
 /// \throw InputError  a seed of a region is outside, or a seed is on a facet; or nothing is enclosed, or nothing is

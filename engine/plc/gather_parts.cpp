@@ -17,9 +17,9 @@
 #include "engine/geometry/contacts.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/planar/triangulation.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/input_faults.h"
 #include "engine/plc/projected_plane.h"
+#include "engine/plc/warped_facets.h"
 
 namespace ccdt::plc {
 
@@ -118,7 +118,7 @@ class FacetTriangulator {
     throw_input_error(plc_, what, remedy, points, {facet_->number});
   }
 
-  // The different vertices of the facet, and its edges between different vertices.
+  // Gathers the distinct vertices of the facet, and its edges between distinct vertices.
   void gather() {
     vertices_.clear();
     edges_.clear();
@@ -136,7 +136,7 @@ class FacetTriangulator {
     vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
   }
 
-  // Takes the plane of the facet and fails if the facet leaves it. False if all vertices are on one line.
+  // Finds the plane of the facet, and fails if the facet leaves it. False if all vertices are on one line.
   bool take_plane() {
     std::vector<Point3> points;
     for (const VertexId v : vertices_) points.push_back(plc_.vertices[v]);
@@ -219,7 +219,7 @@ class FacetTriangulator {
     return std::any_of(edges_.begin(), edges_.end(), [&](const planar::Edge& e) { return e[0] == v || e[1] == v; });
   }
 
-  // The checks of all segments handle a segment that leaves the facet or crosses its edges.
+  // A segment that leaves the facet or crosses its edges is left to the check of all segments.
   void insert_given_segments(planar::Triangulation& t) {
     for (const VertexId v : vertices_)
       for (const std::uint32_t s : segments_at_[v]) {
@@ -233,14 +233,14 @@ class FacetTriangulator {
   TriangleSet& triangles_;
   SegmentSet& segments_;
   ProjectedPlane plane_;
-  std::vector<std::vector<std::uint32_t>> segments_at_;  // of each vertex: the given segments whose smaller end it is
+  std::vector<std::vector<std::uint32_t>> segments_at_;  // by vertex: the given segments whose smaller end it is
   Box world_box_;                                        // of all vertices, in the units of the input
   const PolygonFacet* facet_ = nullptr;
   std::vector<VertexId> vertices_;  // of the current facet, sorted
   std::vector<planar::Edge> edges_;
 };
 
-// For each point the first one that is equal to it, in that order. Sorted by hash values, they are near each other.
+// For each point, the first point equal to it. After sorting by hash values, equal points are near each other.
 std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
   RawVector<KeyedIndex> keyed(points.size());
   parallel_for(points.size(), 4096, [&](std::size_t i) {
@@ -352,7 +352,7 @@ std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, Tria
 
 namespace {
 
-/// A triangle and a vertex on it that is no corner.
+/// A triangle and a vertex on it that is not a corner.
 using VertexOnTriangle = std::pair<std::uint32_t, VertexId>;
 
 std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3> vertices,

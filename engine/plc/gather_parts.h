@@ -25,13 +25,12 @@ TriangleSet gather_triangles(const InputPlc& input, const Plc& plc);
 SegmentSet gather_segments(const InputPlc& input, const Plc& plc);
 
 /// Triangulates the polygon facets of the input, exactly, with all their vertices and without their holes, and appends
-/// the triangles. A facet without area is left out. Polygons of two vertices, and edges of polygons that have the facet
-/// on both sides, are appended to the segments. Existing segments in a facet, with both ends among its vertices, become
-/// edges of its triangles.
+/// the triangles. A facet without area is left out. Polygons of two vertices, and polygon edges with the facet on both
+/// sides, are appended to the segments. Existing segments in a facet, with both ends among its vertices, become edges
+/// of its triangles.
 ///
 /// \param tolerance  in grid units: how far from a plane the vertices of a facet may be
-/// \throw InputError  a facet that is not planar, whose edges cross, or with a hole seed or vertex
-///                    outside
+/// \throw InputError  a facet is not planar, its edges cross, or a hole seed or vertex is outside
 void triangulate_polygons(const InputPlc& input, const Plc& plc, double tolerance, TriangleSet& triangles,
                           SegmentSet& segments);
 
@@ -40,18 +39,18 @@ void triangulate_polygons(const InputPlc& input, const Plc& plc, double toleranc
 /// \param is_kept  by triangle
 void keep_triangles(std::span<const char> is_kept, TriangleSet& triangles);
 
-/// Drops the triangles that have no area, exactly: they bound nothing. CAD programs use them to close the gap where a
+/// Drops the triangles that have exactly no area: they bound nothing. CAD programs use them to close the gap where a
 /// vertex of one facet is on the edge of another. The vertex stays, and splits that facet
 /// (`split_triangles_at_vertices`).
 ///
 /// \return their number
 std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles);
 
-/// Splits the triangles that contain other vertices, exactly, on an edge or inside, so that these become corners. What
-/// conforms in space then also conforms by indices.
+/// Splits the triangles that contain other vertices (tested exactly), on an edge or inside, so that these become
+/// corners. Triangles that conform in space then also conform by their indices.
 ///
 /// \param close  of the triangles
-/// \return was anything split? Then the triangles are new
+/// \return was anything split? Then the triangles have changed
 bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<const TrianglePair> close,
                                  TriangleSet& triangles);
 

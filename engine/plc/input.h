@@ -51,11 +51,11 @@ struct InputPlc {
   std::vector<RegionSeed> regions;
 
   /// Facets that were replaced by triangles, because they are not planar.
-  struct Bent {
+  struct Warped {
     std::uint64_t count = 0;
     double largest_deviation = 0;  ///< largest distance of a corner from the plane of its facet
   };
-  Bent bent;
+  Warped warped;
 
   std::vector<std::string> notes;  ///< what is unusual in the file but was understood; one sentence each
 

@@ -32,7 +32,7 @@ void throw_input_error(const Plc& plc, const std::string& what, const std::strin
 }
 
 std::vector<TrianglePair> find_duplicate_triangles(const Plc& plc, const TriangleSet& triangles) {
-  // A face is that of one triangle, so one of two with the same corners has none.
+  // A face belongs to one triangle, so of two triangles with the same corners, one has none.
   if (std::ranges::find(triangles.faces, no_face) == triangles.faces.end()) return {};
   std::vector<char> may_be_shared(plc.vertices.size(), 0);
   const auto smallest = [](const VertexTriple& t) { return std::min({t[0], t[1], t[2]}); };

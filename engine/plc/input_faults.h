@@ -11,7 +11,7 @@
 
 namespace ccdt::plc {
 
-/// The triangles with the same corners as one before them, each with the first of these.
+/// The triangles with the same corners as an earlier one, each paired with the first of these.
 std::vector<TrianglePair> find_duplicate_triangles(const Plc& plc, const TriangleSet& triangles);
 
 /// \param pairs       not empty

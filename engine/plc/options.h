@@ -5,7 +5,7 @@
 namespace ccdt::plc {
 
 struct PlcOptions {
-  double flatness = usual_flatness;  ///< tolerance for the vertices of a patch to be in one plane, so that it is one
+  double flatness = usual_flatness;  ///< how far the vertices of a patch may be from one plane, so that it is one
                                      ///< facet; as a fraction of the box. See `flatness_for`
 };
 

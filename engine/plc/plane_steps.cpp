@@ -16,7 +16,7 @@ bool is_multiple_of_quantum(const Point3& p) {
   return whole(p.x) && whole(p.y) && whole(p.z);
 }
 
-/// Makes the two steps, of the same multiples, short and nearly orthogonal (Lagrange).
+/// Makes the two steps short and nearly orthogonal; their integer combinations stay the same (Lagrange).
 void shorten(Point3& u, Point3& v) {
   constexpr int most_rounds = 100;
   for (int round = 0; round < most_rounds; ++round) {
@@ -36,7 +36,7 @@ Point3 shortest_step(const Point3& from, const Point3& to) {
   const auto magnitude = [](double x) { return static_cast<std::int64_t>(std::fabs(x)); };
   const std::int64_t divisor =
       std::gcd(std::gcd(magnitude(difference.x), magnitude(difference.y)), magnitude(difference.z));
-  const auto by = static_cast<double>(divisor);  // divides without remainder, so exactly
+  const auto by = static_cast<double>(divisor);  // divides without remainder, so exact
   return {difference.x / by, difference.y / by, difference.z / by};
 }
 

@@ -12,21 +12,21 @@
 
 namespace ccdt::plc {
 
-/// A triangle is no face of a simplicial complex, or that is not known.
+/// The triangle is not a face of a simplicial complex, or may not be one.
 inline constexpr std::uint32_t no_face = none;
 
 /// A segment of the PLC: a straight edge that the mesh must contain as a chain of edges.
 struct Segment {
   std::array<VertexId, 2> ends;
   int marker = 0;
-  bool grazeable = false;        ///< a sector of the domain of 180 degrees or more is around it (Shewchuk 2002)
+  bool grazeable = false;        ///< the domain spans 180 degrees or more around it (Shewchuk 2002)
   bool touching = false;         ///< the domain touches itself along it: more than two triangles there bound the domain
-  std::uint32_t face = no_face;  ///< of a triangle at it, in `Plc::faces`: then it is an edge there
+  std::uint32_t face = no_face;  ///< of a triangle at it, in `Plc::faces`; then the segment is an edge there
 };
 
 /// A facet: a maximal connected coplanar patch of input facets with one marker, bounded by segments.
 ///
-/// `above` is the side to which the normals of its triangles point (right-hand rule, counterclockwise as seen from
+/// `above` is the side that the normals of its triangles point to (right-hand rule, counterclockwise as seen from
 /// above).
 struct Facet {
   std::uint32_t first_triangle = 0, triangle_count = 0;  ///< in `Plc::triangles`
@@ -44,9 +44,9 @@ struct Region {
 
 /// A piecewise linear complex, checked and ready to be meshed (paper, section 2).
 ///
-/// Invariants: vertices are pairwise different and multiples of `DyadicGrid::quantum`; segments and facets meet only in
-/// common vertices and segments; a vertex of the PLC that lies on a segment splits it and one that lies in a facet is a
-/// vertex of its triangulation; every boundary edge of a facet is a segment.
+/// Invariants: vertices are distinct and multiples of `DyadicGrid::quantum`; segments and facets meet only in common
+/// vertices and segments; a vertex of the PLC that lies on a segment splits it and one that lies in a facet is a vertex
+/// of its triangulation; every boundary edge of a facet is a segment.
 struct Plc {
   std::string name;
   DyadicGrid grid;
@@ -55,8 +55,8 @@ struct Plc {
   std::vector<VertexId> vertex_of_input;  ///< for each input vertex, its vertex
   std::vector<Segment> segments;
   std::vector<Facet> facets;
-  std::vector<std::array<VertexId, 3>> triangles;  ///< those of all facets, one facet after the other
-  std::vector<std::uint32_t> faces;  ///< by triangle: what it is in a simplicial complex that has all vertices, such as
+  std::vector<std::array<VertexId, 3>> triangles;  ///< of all facets, one facet after another
+  std::vector<std::uint32_t> faces;  ///< by triangle: its face in a simplicial complex that has all vertices, such as
                                      ///< their Delaunay tetrahedralization; or `no_face`
   std::vector<Region> regions;
   std::vector<Point3> idle_holes;  ///< seeds of holes where nothing is enclosed anyway, in the units of the input

@@ -11,8 +11,8 @@
 
 namespace ccdt::plc {
 
-/// The plane of a facet, seen along the axis that it is least parallel to. In this projection, all answers are exact,
-/// even for a facet that is planar only within the tolerance.
+/// The plane of a facet, seen along the axis nearest to its normal. In this projection, all answers are exact, even for
+/// a facet that is planar only within the tolerance.
 struct ProjectedPlane {
   std::span<const Point3> vertices;
   std::span<const Point3> seeds;  ///< their ids follow those of the vertices

@@ -9,30 +9,30 @@
 namespace ccdt::protection {
 namespace {
 
-/// If there are more, finding the cavity of a probe is cheaper.
+/// With more vertices, finding the cavity of a probe is cheaper.
 constexpr std::size_t most_vertices = 16;
 
 }  // namespace
 
-// The places that see the piece under one angle are a circular arc between its ends, turned around it. The middle of
-// the arc is farthest away.
+// The points that see the piece at one angle form a circular arc between its ends, rotated around it. The middle of the
+// arc is farthest away.
 double WorstVertex::width() const {
   return 0.5 * std::sqrt(squared_length(b_ - a_) * (1 + least_cosine_ + 1e-9) / (1 - least_cosine_));
 }
 
-/// From every vertex but the nearest one, an edge leads to a vertex nearer to a place, as in a greedy walk. So the
-/// vertices in a ball are connected by edges within it, and the cells around them by faces that have such a vertex.
+/// From every vertex but the nearest one, an edge leads to a vertex nearer to a given place, as in a greedy walk. So
+/// the vertices in a ball are connected by edges within it, and the cells around them by faces that have such a vertex.
 ///
 /// A piece that is not an edge leaves its first end through a cell that has another vertex in the diametral ball, or on
 /// it: the power of a point with respect to this ball, less that with respect to the cell's sphere, changes linearly.
-/// It is zero at the first end and at most zero at the other, so at most zero where the piece leaves the cell, and at
-/// one of the three corners around that place, which are on the cell's sphere. If a vertex of that cell is clearly
-/// inside, the search starts there and does not go through the ends.
+/// It is zero at the first end and at most zero at the other. So it is at most zero where the piece leaves the cell,
+/// and hence at one of the three corners around that place, which are on the cell's sphere. If a vertex of that cell is
+/// clearly inside, the search starts there and does not go through the ends.
 ///
-/// If there are many in the diametral ball, worse ones than the worst one so far can only be near the piece. Each is
-/// searched for in the ball between itself and one of three vertices: that one or an end, whichever is nearest along
-/// the piece. A vertex may be in such a ball if some place near that part of the piece is in front of the plane through
-/// it.
+/// If many vertices are in the diametral ball, one worse than the worst so far can only be near the piece. It is
+/// searched for in the ball between itself and one of three vertices: the worst so far or an end, whichever is nearest
+/// along the piece. A vertex may be in such a ball if some place near that part of the piece is in front of the plane
+/// through it.
 bool DiametralSearch::find_worst(std::uint32_t a, std::uint32_t b, WorstVertex& worst) {
   const Point3 &p = d_.point(a), &q = d_.point(b);
   const double length = ccdt::length(q - p), room = 1e-9 * length * length;
@@ -64,7 +64,7 @@ std::uint32_t DiametralSearch::cell_at(std::uint32_t v) const {
   return d_.is_ghost(cell) ? delaunay::cell_of(d_.cells[cell].neighbors[3]) : cell;
 }
 
-/// Examines the vertices inside, as far as edges within connect them with those of the first cell.
+/// Examines those vertices inside that edges within connect to vertices of the first cell.
 /// \return false if there are too many
 template <class IsInside>
 bool DiametralSearch::spread(std::uint32_t first, WorstVertex& worst, const IsInside& is_inside) {
@@ -104,7 +104,8 @@ bool DiametralSearch::spread(std::uint32_t first, WorstVertex& worst, const IsIn
   return found <= most_vertices;
 }
 
-/// The new edge would be in the cavity, which is star-shaped around p: so the cell where it leaves v is of the cavity.
+/// The new edge would be in the cavity, which is star-shaped around p: so the cell through which it leaves v is in the
+/// cavity.
 bool would_be_joined(const delaunay::Delaunay& d, std::uint32_t v, const Point3& p) {
   const auto& corners = d.cells[cell_toward(d, v, p)].vertices;
   return insphere(d.point(corners[0]), d.point(corners[1]), d.point(corners[2]), d.point(corners[3]), p) > 0;

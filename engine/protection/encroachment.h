@@ -9,7 +9,7 @@
 
 namespace ccdt::protection {
 
-/// The vertex that sees a piece of a segment under the largest obtuse angle, so far.
+/// The vertex that sees a piece of a segment at the largest obtuse angle, so far.
 class WorstVertex {
  public:
   WorstVertex(const Point3& a, const Point3& b) : a_(a), b_(b) {}
@@ -18,14 +18,14 @@ class WorstVertex {
     const double product = dot(to_a, to_b);
     if (product >= 0) return;
     const double cosine = product / std::sqrt(squared_length(to_a) * squared_length(to_b));
-    // Of equal ones the least vertex, for any order of the cells.
+    // Among equal ones, the least vertex, whatever the order of the cells.
     if (cosine > least_cosine_ || (cosine == least_cosine_ && v >= vertex_.value_or(0))) return;
     least_cosine_ = cosine;
     vertex_ = v;
   }
   /// None if no vertex is in the diametral sphere.
   std::optional<std::uint32_t> vertex() const { return vertex_; }
-  /// How far from the piece can a place be that sees it under an angle at least as large? With room for rounding.
+  /// How far from the piece can a point be that sees it at an angle at least as large? With room for rounding.
   double width() const;
 
  private:

@@ -22,19 +22,19 @@ namespace {
 /// If the smallest sphere of an edge holds more points, other spheres hardly ever hold fewer.
 constexpr std::size_t few_points = 8;
 
-/// Least number of points that a split must spare.
+/// Least number of points that a split must save.
 constexpr std::size_t points_per_split = 20;
 
-/// The halves of an edge may be costly as well. After this many rounds, few are.
+/// The halves of an edge may be costly as well. After this many rounds, few of them are.
 constexpr int most_rounds = 3;
 
 struct ProtectedEdge {
   PieceEnds ends;
-  std::uint32_t face;  ///< of the tetrahedralization, at the edge; `plc::no_face`: none is known
+  std::uint32_t face;  ///< of the tetrahedralization, at the edge; `plc::no_face` if none is known
 };
 
 std::vector<ProtectedEdge> protected_edges(const plc::Plc& plc, const ProtectedDelaunay& p) {
-  // With more vertices, the faces may be others.
+  // After vertices were added, the faces may have changed.
   const bool has_faces = p.delaunay.vertices.size() == plc.vertices.size();
   std::vector<ProtectedEdge> edges;
   for (std::size_t s = 0; s < p.chains.size(); ++s)
@@ -50,10 +50,10 @@ RawVector<Box> boxes_of(std::span<const Point3> points) {
   return boxes;
 }
 
-/// A vector with more digits.
+/// A vector of higher precision.
 using LongVector = std::array<long double, 3>;
 
-/// Exact for points of the grid, whose difference may have one digit more than they.
+/// Exact for points of the grid, whose difference may need one more bit than they do.
 LongVector difference(const Point3& a, const Point3& b) {
   return {static_cast<long double>(a.x) - b.x, static_cast<long double>(a.y) - b.y,
           static_cast<long double>(a.z) - b.z};
@@ -96,8 +96,8 @@ class HarmSearch {
   }
 
  private:
-  /// Leaves the points in `best_` that are in the sphere of one cell around the edge: without them that cell stays, and
-  /// the edge with it. The cell is one whose sphere is about the smallest.
+  /// Keeps only those points in `best_` that are in the sphere of one cell around the edge: without them, that cell
+  /// stays, and the edge with it. The cell is about the one with the smallest sphere.
   void find_in_cell(const PieceEnds& edge) {
     const auto size = [&](std::uint32_t cell) { return rough_squared_radius(edge, cell); };
     const std::uint32_t smallest = *std::ranges::min_element(ring_.cells, {}, size);
@@ -111,8 +111,8 @@ class HarmSearch {
   /// A ball that holds the sphere of a cell, enlarged by more than its rounding; none for a ghost or a flat cell. The
   /// ball around the spheres of all cells of an edge would hold most points of a convex part.
   ///
-  /// Cells on a nearly flat surface have large spheres, of which hardly anything is inside. So the center is computed
-  /// with many digits.
+  /// Cells on a nearly flat surface have large spheres that are hardly inside the domain. So the center is computed
+  /// with high precision.
   std::optional<Ball> ball_around(std::uint32_t cell) const {
     if (d_.is_ghost(cell)) return {};
     const auto& v = d_.cells[cell].vertices;
@@ -134,7 +134,7 @@ class HarmSearch {
   }
 
   /// The squared radius of the cell's sphere up to rounding, which does not depend on the order of the cell's vertices;
-  /// equal ones are told apart by the vertices.
+  /// the vertices break ties.
   std::tuple<double, std::uint32_t, std::uint32_t> rough_squared_radius(const PieceEnds& edge,
                                                                         std::uint32_t cell) const {
     std::array<std::uint32_t, 4> v = d_.cells[cell].vertices;
@@ -162,7 +162,7 @@ class HarmSearch {
   const Avoided avoided_;
   EdgeRing ring_;
   VoronoiFace face_;
-  std::vector<std::uint32_t> inside_, best_;  ///< points in the ball of the moment; in the best one
+  std::vector<std::uint32_t> inside_, best_;  ///< points in the current ball; in the best one
 };
 
 /// The points that may harm each protected edge.
@@ -194,7 +194,7 @@ struct Harm {
 
   std::size_t harmful_points() const { return edge_count.size() - std::ranges::count(edge_count, 0u); }
 
-  /// The edges that have so many points for their own, where edges share those that may harm several.
+  /// The edges that cost many points. A point that may harm several edges counts in equal parts for each.
   std::vector<PieceEnds> costly_edges() const {
     std::vector<PieceEnds> costly;
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -206,7 +206,7 @@ struct Harm {
   }
 };
 
-/// The points that harm no edge and are not where one of these vertices is.
+/// The points that harm no edge and do not coincide with one of these vertices.
 std::vector<std::uint32_t> harmless_points(const Harm& harm, const BoxTree& tree,
                                            std::span<const delaunay::DelaunayVertex> vertices) {
   std::vector<std::uint8_t> is_vertex(harm.edge_count.size(), false);
@@ -221,7 +221,7 @@ std::vector<std::uint32_t> harmless_points(const Harm& harm, const BoxTree& tree
   return result;
 }
 
-/// The surface with these edges split; none if one of them, or of those that must be split then, cannot be.
+/// The surface with these edges split; none if one of them, or an edge that must be split as a result, cannot be.
 std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges, const plc::Plc& plc,
                                             Protection strategy, const ProtectedDelaunay& surface,
                                             const Progress& progress) {

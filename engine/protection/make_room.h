@@ -8,7 +8,7 @@
 
 namespace ccdt::protection {
 
-/// What points keep away from already.
+/// What points already keep away from.
 enum class Avoided {
   nothing,
   smallest_spheres  ///< of all edges and triangles of the surface, and with them the vertices
@@ -19,16 +19,16 @@ enum class Avoided {
 /// are inserted and in whatever order.
 ///
 /// An edge is Delaunay if some sphere through its ends has no vertex inside. For each edge one such sphere is chosen,
-/// the smallest one or, if that spares some of a few points, another one. The points inside are left out. If rounding
-/// errors forbid that, it is the circumsphere of a cell at the edge, and points are tested exactly.
+/// the smallest one or, if it has few points and another one has fewer, that one. The points inside are left out. If
+/// rounding errors rule this out, the circumsphere of a cell at the edge is used, and points are tested exactly.
 ///
-/// On a bad surface, a vertex right beside an edge can force all spheres of the edge to be large; those of two halves
-/// are small. So edges are split, as long as each split spares 20 points.
+/// On a bad surface, a vertex right beside an edge can force all spheres of the edge to be large; the spheres of its
+/// halves are small. So edges are split, as long as each split saves 20 points.
 ///
 /// \param points   in grid units
 /// \param surface  whose protected edges are all there; gains the vertices of the splits, and stays protected
 /// \param avoided  what the points are known to keep away from
-/// \return  the indices of the points that remain, in increasing order; none of them is where a vertex is
+/// \return  the indices of the points that remain, in increasing order; none of them is at a vertex
 std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
                                      ProtectedDelaunay& surface, Avoided avoided, const Progress& progress = {});
 

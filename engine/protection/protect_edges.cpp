@@ -15,7 +15,7 @@
 namespace ccdt::protection {
 namespace {
 
-/// The pieces that are no edges, in the order of their segments. Most pieces are edges.
+/// The pieces that are not edges, in the order of their segments. Most pieces are edges.
 std::vector<std::uint64_t> find_missing(const plc::Plc& plc, const ProtectedDelaunay& state) {
   const bool has_new_vertices = state.delaunay.vertices.size() != plc.vertices.size();
   return parallel_collect<std::uint64_t>(
@@ -30,9 +30,9 @@ std::vector<std::uint64_t> find_missing(const plc::Plc& plc, const ProtectedDela
       });
 }
 
-/// Splits pieces of segments until all that need protection are Delaunay edges. A stack holds the missing ones: those
-/// from the start, then those that a split made or destroyed; an edge that is lost never comes back. A stack needs
-/// fewer splits than a queue, because one place is finished before the next one.
+/// Splits pieces of segments until all that need protection are Delaunay edges. A stack holds the missing pieces: those
+/// missing from the start, then those that a split made or destroyed. A lost edge never comes back. A stack needs fewer
+/// splits than a queue, because one place is finished before the next one.
 class Protector {
  public:
   Protector(const plc::Plc& plc, Protection strategy, std::vector<std::uint64_t> missing, ProtectedDelaunay& state)
@@ -80,8 +80,8 @@ class Protector {
 
   static std::uint64_t bit_of(std::uint32_t vertex) { return std::uint64_t{1} << vertex % 64; }
 
-  /// Visits the pieces among the edges of a cell or a face; most others are left out without looking them up. Those of
-  /// cells and faces with the ghost are edges of others, too.
+  /// Visits the pieces among the edges of a cell or a face; most other edges are skipped without being looked up. Edges
+  /// of cells and faces with the ghost are edges of others, too.
   template <std::size_t n, class Visit>
   void visit_pieces(const std::array<std::uint32_t, n>& vertices, const Visit& visit) const {
     if (std::ranges::find(vertices, delaunay::ghost_vertex) != vertices.end()) return;
@@ -92,7 +92,7 @@ class Protector {
           if (const std::uint32_t* piece = piece_of_.find(edge_key(vertices[i], vertices[j]))) visit(*piece);
   }
 
-  /// The pieces within the cavity, in an order that does not depend on that of the cells.
+  /// Finds the pieces within the cavity, in an order that does not depend on that of the cells.
   void find_lost() {
     lost_.clear();
     met_in_.resize(pieces_.size(), 0);
@@ -121,7 +121,7 @@ class Protector {
   EdgeSplitter splitter_;
   std::vector<InnerVertex> added_;
   std::vector<Subsegment> pieces_;                    // also those that were split
-  HashTable<std::uint64_t, std::uint32_t> piece_of_;  // by their edges: those that were not
+  HashTable<std::uint64_t, std::uint32_t> piece_of_;  // by their edges: the pieces that were not split
   std::vector<std::uint64_t> other_ends_;             // by vertex: bits of the other ends of pieces there
   std::vector<std::uint64_t> lost_;                   // pieces that the last split has destroyed
   std::vector<std::size_t> met_in_;                   // by piece: the last split with it in the cavity or on its border

@@ -14,7 +14,7 @@
 
 namespace ccdt::protection {
 
-/// A Delaunay tetrahedralization and the segments, those that need protection as chains of its edges.
+/// A Delaunay tetrahedralization and the segments. Those that need protection are chains of its edges.
 struct ProtectedDelaunay {
   delaunay::Delaunay delaunay;
   SegmentChains chains;
@@ -31,7 +31,7 @@ class SegmentLimit : public LimitError {
   std::array<VertexId, 2> ends;
 };
 
-/// The state before protection, in which the grazeable segments must still become chains of Delaunay edges.
+/// The state before protection: the grazeable segments must still become chains of Delaunay edges.
 ///
 /// \param delaunay  of the vertices of `plc` and of those inside the chains
 /// \param chains    vertices that the first segments have already, the first ones after those of `plc`
@@ -41,11 +41,11 @@ ProtectedDelaunay unprotected(const plc::Plc& plc, delaunay::Delaunay delaunay, 
 /// constrained Delaunay tetrahedralization exists (Shewchuk 2002).
 ///
 /// `midpoint` bisects. `shell` splits at the foot of the vertex that encroaches most, so that one split is enough for
-/// one vertex; unless that vertex is on a segment that meets this one. Then it splits at the same distance from the
-/// common end: the pieces of all segments there end on common spheres, and cannot split each other forever (Ruppert
-/// 1995; Si and Gaertner 2005). Pieces of segments that were split often are not split near their ends but at common
-/// planes of all segments, so that parallel segments are split side by side. Split points are dyadic fractions of the
-/// segment, j / 2^20, and lie on it exactly. `shell` takes finer ones if necessary and on the grid, as on segments
+/// one vertex. If that vertex is on a segment that meets this one, it splits at the same distance from the common end:
+/// the pieces of all segments there end on common spheres, and cannot split each other forever (Ruppert 1995; Si and
+/// Gaertner 2005). Pieces of segments that were split often are not split near their ends but at planes common to all
+/// segments, so that parallel segments are split side by side. Split points are dyadic fractions of the segment, j /
+/// 2^20, and lie on it exactly. `shell` uses finer fractions where necessary, if they are on the grid, as on segments
 /// between round coordinates.
 ///
 /// \param start     `unprotected`, or the state of an earlier call, with more vertices

@@ -16,7 +16,7 @@ namespace ccdt::protection {
 struct ChainVertex {
   VertexId vertex;
   std::uint32_t fraction = 0;  ///< where: multiples of 1 / whole_segment from the segment's first end
-  std::uint32_t level = 0;  ///< one more than the greater level of the two ends of the piece that it split; 0: an end
+  std::uint32_t level = 0;     ///< one more than the greater level of the ends of the piece that it split; 0: an end
 };
 
 inline constexpr std::uint32_t whole_segment = 1u << 30;
@@ -31,7 +31,7 @@ struct InnerVertex {
 };
 
 /// The chains of the segments of a PLC: for each segment the vertices on it, from its first end (fraction 0) to its
-/// second (`whole_segment`). All are in one array, since most segments have nothing but their ends.
+/// second (`whole_segment`). All are in one array, since most segments have only their ends.
 class SegmentChains {
  public:
   SegmentChains() = default;

@@ -16,14 +16,15 @@ namespace {
 /// splits.
 constexpr std::uint32_t most_splits_at_feet = 8;
 
-/// Smallest share of a piece that a split leaves, if that does no harm.
+/// Smallest share of a piece that a split leaves, if it does no harm.
 constexpr double least_part_at_foot = 0.001;
 
 /// Where to split a piece because of an encroaching vertex: at the foot of the vertex, so that it is outside the
 /// diametral spheres of both halves. Near an end of the piece, the split moves away from that end, but only so far that
 /// the vertex stays outside both spheres.
 ///
-/// \param from, to  the ends of the piece; like the foot and the result in distances from the segment's first end
+/// \param from, to  the ends of the piece; like the foot and the result, these are distances from the segment's first
+///        end
 SplitPlace split_near_foot(double foot, double squared_height, double from, double to) {
   const double margin = least_part_at_foot * (to - from), room = 0.9 * squared_height;
   const double wanted = std::clamp(foot, from + margin, to - margin);
@@ -31,8 +32,8 @@ SplitPlace split_near_foot(double foot, double squared_height, double from, doub
   return {std::clamp(wanted, low, high), low, high};
 }
 
-/// Where a line, between two distances from its origin, meets a round plane: of the planes across its dominant axis,
-/// the one whose coordinate is a multiple of the greatest power of two. Parallel lines meet the same planes.
+/// Where a line, between two distances from its origin, meets a round plane: among the planes across its dominant axis,
+/// the one whose coordinate is a multiple of the largest power of two. Parallel lines meet the same planes.
 double distance_of_round_plane(const Point3& origin, const Point3& direction, double from, double to) {
   const auto along = as_array(direction);
   std::size_t axis = 0;
@@ -45,8 +46,8 @@ double distance_of_round_plane(const Point3& origin, const Point3& direction, do
   return std::clamp((std::floor(high / step) * step - start) / along[axis], from, to);
 }
 
-/// The least fraction of a segment whose multiples are on the grid. The coordinates of its ends are multiples of 2^20,
-/// and in regular shapes of greater powers of two.
+/// The least fraction of a segment whose multiples are on the grid. The coordinates of its ends are multiples of 2^20
+/// or, in regular shapes, of greater powers of two.
 std::uint32_t finest_step(const Point3& along) {
   int zeros = std::countr_zero(whole_segment);
   for (const double part : as_array(along))
@@ -115,8 +116,8 @@ std::uint32_t EdgeSplitter::step_of(std::uint32_t segment) const {
   return strategy_ == Protection::midpoint ? usual_step : finest_step(d_.point(b) - d_.point(a));
 }
 
-/// The fraction strictly between the ends of the piece that is nearest to the wanted place, in default steps; if none
-/// of these serves its purpose, in smaller ones, as far as the segment allows.
+/// The fraction, strictly between the ends of the piece, that is nearest to the wanted place. It is a multiple of the
+/// default step or, if no such fraction will do, of a smaller one that the segment allows.
 std::uint32_t EdgeSplitter::fraction_near(const Subsegment& piece, const SplitPlace& place) const {
   const auto& ends = plc_.segments[piece.segment].ends;
   const double unit = std::sqrt(squared_length(d_.point(ends[1]) - d_.point(ends[0]))) / whole_segment;
@@ -140,12 +141,12 @@ std::uint32_t EdgeSplitter::split_fraction(const Subsegment& piece) {
   return encroaching ? fraction_near(piece, split_place(piece, *encroaching)) : middle;
 }
 
-/// Of the vertices that a new vertex on the piece would be joined to, the one that sees the piece under the largest
-/// obtuse angle: the reason why the piece is missing. None if no vertex is in the diametral sphere.
+/// Of the vertices that a new vertex on the piece would be joined to, the one that sees the piece at the largest obtuse
+/// angle: it is why the piece is missing. None if no vertex is in the diametral sphere.
 std::optional<std::uint32_t> EdgeSplitter::encroaching_vertex(const Subsegment& piece, std::uint32_t fraction) {
   const Point3 p = point_on_segment(plc_, piece.segment, fraction);
   const WorstVertex none(d_.point(piece.from.vertex), d_.point(piece.to.vertex));
-  // It is nearly always the worst one of all.
+  // It is nearly always the worst of all vertices.
   WorstVertex worst = none;
   if (search_.find_worst(piece.from.vertex, piece.to.vertex, worst) &&
       (!worst.vertex() || would_be_joined(d_, *worst.vertex(), p)))

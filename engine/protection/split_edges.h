@@ -32,11 +32,11 @@ class EdgeSplitter {
   /// \param chains  the vertices on the segments so far
   EdgeSplitter(const plc::Plc& plc, Protection strategy, delaunay::Delaunay& delaunay, const SegmentChains& chains);
 
-  /// Is the piece long enough to have a place between its ends where it may be split?
+  /// Is the piece long enough to have a possible place for a split between its ends?
   bool can_split(const Subsegment& piece) const;
 
-  /// Adds a vertex that splits the piece, where `strategy` says, and finds its cavity. The caller adds it to the chain,
-  /// examines the cavity and calls `insert`.
+  /// Adds a vertex that splits the piece according to `strategy`, and finds its cavity. The caller adds it to the
+  /// chain, examines the cavity and calls `insert`.
   ///
   /// \throw LimitError  the piece is as short as the grid allows, or there are far too many splits
   ChainVertex choose(const Subsegment& piece);
@@ -56,7 +56,7 @@ class EdgeSplitter {
   delaunay::Insertion insertion_;
   DiametralSearch search_;
   std::vector<std::uint32_t> segment_of_;  ///< by vertex, without those of the PLC; none: not on a segment
-  std::size_t most_vertices_;              ///< more would be far too many splits
+  std::size_t most_vertices_;              ///< more would mean far too many splits
 };
 
 }  // namespace ccdt::protection

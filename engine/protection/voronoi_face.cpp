@@ -43,10 +43,10 @@ Ball VoronoiFace::ball(const Place& center) const {
 
 Ball VoronoiFace::covering_ball() {
   // An edge much shorter than those around it has centers far away. Small distances are tried first: the nearer all
-  // centers are, the smaller is the allowance for rounding.
+  // centers are, the smaller the allowance for rounding.
   for (const double half_lengths : {farthest, 1e2 * farthest, 1e4 * farthest, 1e6 * farthest}) {
     const double far = half_lengths * std::sqrt(squared_half_);
-    make_polygon(far, margin * far * far);  // with all of the true polygon that is not too far away
+    make_polygon(far, margin * far * far);  // contains all of the true polygon that is not too far away
     const auto is_inside = [&](const Place& p) { return std::max(std::abs(p.x), std::abs(p.y)) < far; };
     if (polygon_.empty() || !std::ranges::all_of(polygon_, is_inside)) continue;
     const Place center = center_of_polygon();

@@ -18,20 +18,20 @@ struct EdgeRing {
 /// \param first  one of the cells around the edge ab
 void gather_ring(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, std::uint32_t first, EdgeRing& ring);
 
-/// The face of the Voronoi diagram that is dual to a Delaunay edge: the centers of the spheres through the edge's ends
-/// that hold no vertex. It is a convex polygon in the plane that bisects the edge. It is computed in floating point,
-/// but all spheres that it offers are empty by a margin; so it offers none if the polygon is too small.
+/// The face of the Voronoi diagram that is dual to a Delaunay edge: the centers of the empty spheres through the edge's
+/// ends. It is a convex polygon in the plane that bisects the edge. It is computed in floating point, but all spheres
+/// that it offers are empty by a margin. So it offers none if the polygon is too small.
 class VoronoiFace {
  public:
   /// \param d     points in grid units
   /// \param ring  of the edge ab
   void make(const delaunay::Delaunay& d, std::uint32_t a, std::uint32_t b, const EdgeRing& ring);
 
-  /// By a margin, as all that are visited.
+  /// Empty by a margin, like all balls that are visited.
   bool smallest_ball_is_empty() const { return is_empty({}); }
 
   /// Calls visit(ball) for a few of the empty spheres, the smallest one first, until `visit` returns false. The balls
-  /// are enlarged by much more than their rounding, so that a point that is not in one is outside of the true sphere.
+  /// are enlarged by much more than their rounding, so a point outside a ball is outside the true sphere.
   template <class Visit>
   void visit_empty_balls(const Visit& visit) {
     if (is_empty({}) && !visit(ball({}))) return;
@@ -65,11 +65,11 @@ class VoronoiFace {
     Place normal;
     double bound;
   };
-  /// Centers farther from the edge than this many half lengths of it are left out: their spheres are nearly
+  /// Centers farther from the edge than this many times half its length are left out: their spheres are nearly
   /// half-spaces.
   static constexpr double farthest = 100;
   static constexpr double margin = 1e-9;  ///< of squared radii
-  static constexpr double inward = 1e-3;  ///< share of the way to the center that a place of the polygon is moved
+  static constexpr double inward = 1e-3;  ///< by this share of the way, a place of the polygon is moved to the center
 
   double squared_radius(const Place& center) const { return squared_half_ + dot(center, center); }
   bool is_empty(const Place& center) const;

@@ -13,14 +13,14 @@
 namespace ccdt::refine {
 namespace {
 
-/// Segments are too close if they are at most this many steps apart. A step is the distance between the places for
-/// vertices on the longer one.
+/// Segments are too close if they are at most this many steps apart. A step is the distance between possible vertices
+/// on the longer one.
 constexpr double close_steps = 1;
 
-/// Near the common vertex of a fan, where places for vertices do not fit exactly, protection may split a piece about
-/// this often. On pleated cones with angles of 0.003 to 0.00003, it adds 0.5 to 2.6 vertices for each one of
-/// refinement. With 1, pieces stay so long that the mean r is up to 2,600 times as large; without a limit, splitting
-/// need not end.
+/// Near the common vertex of a fan, where possible vertices do not fit each other exactly, protection may split a piece
+/// about this often. On pleated cones with angles of 0.003 to 0.00003, protection adds 0.5 to 2.6 vertices for each
+/// vertex of refinement. With 1, pieces stay so long that the mean r is up to 2,600 times as large; without a limit,
+/// splitting might not end.
 constexpr double most_splits = 100;
 
 class CloseSegmentSearch {
@@ -45,7 +45,7 @@ class CloseSegmentSearch {
     const auto& [a, b] = plc_.segments[s].ends;
     return length(point(b) - point(a));
   }
-  /// The distance between neighboring places for vertices.
+  /// The distance between neighboring possible vertices.
   double step_of(std::uint32_t s) const { return length_of(s) * protection::usual_step / protection::whole_segment; }
   std::uint32_t other_end(std::uint32_t s, std::uint32_t v) const {
     const auto& [a, b] = plc_.segments[s].ends;

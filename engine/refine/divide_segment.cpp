@@ -18,10 +18,10 @@ Point3 at_share(const std::array<Point3, 2>& ends, double share) {
   return at_fraction(ends, static_cast<std::uint32_t>(share * all_steps));
 }
 
-/// Divides a segment into intervals that are nearly equal, in units of the wanted lengths.
+/// Divides a segment into intervals of nearly equal length, measured in wanted edge lengths.
 std::vector<double> even_shares(const std::array<Point3, 2>& ends, sizes::SizeWalk& sizes) {
   const double whole = length(ends[1] - ends[0]);
-  std::vector<std::pair<double, double>> passed = {{0, 0}};  // share of the length, wanted edges up to there
+  std::vector<std::pair<double, double>> passed = {{0, 0}};  // share of the length, and wanted edges up to there
   double size = sizes.at(ends[0]);
   for (double t = 0; t < 1;) {
     const double step = std::min(0.5 * size / whole, 1 - t);
@@ -43,8 +43,8 @@ std::vector<double> even_shares(const std::array<Point3, 2>& ends, sizes::SizeWa
   return shares;
 }
 
-/// Shells: distances from the first end that come from halving the interval up to a power of two, again and again. So
-/// segments that meet at a small angle have vertices at the same distances, as they must (Ruppert 1995).
+/// Shells: distances from the first end, made by repeatedly halving the interval up to a power of two. So segments that
+/// meet at a small angle have vertices at the same distances, as they must (Ruppert 1995).
 class Shells {
  public:
   /// \param least, most  distances from the first end

@@ -17,7 +17,7 @@ std::array<Point3, 3> corners_of(const std::array<VertexId, 3>& t, const std::ve
   return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
-/// Puts an axis last, and the other two in the order that keeps the orientation.
+/// Puts this axis last, and the other two in the order that keeps the orientation.
 Point3 turned(const Point3& p, int axis) {
   if (axis == 0) return {p.y, p.z, p.x};
   if (axis == 1) return {p.z, p.x, p.y};
@@ -43,7 +43,7 @@ std::optional<Point3> nearest_in_plane(const plc::PlaneSteps& steps, const Point
   const double j = std::nearbyint((pv * uu - pu * uv) / determinant);
   const auto fits = [](double count) { return std::fabs(count) < 0x1p60; };
   if (!fits(i) || !fits(j)) return std::nullopt;
-  // Exact in integers: the products may have more bits than a double, and more than 64 before they cancel.
+  // Exact, in integers: the products may have more bits than a double, and more than 64 before they cancel.
   const auto combine = [&](double o, double s, double t) {
     return o + static_cast<double>(static_cast<Int128>(i) * static_cast<Int128>(s) +
                                    static_cast<Int128>(j) * static_cast<Int128>(t));
@@ -79,7 +79,7 @@ FacetPlane::FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool 
   }
 }
 
-/// Maps the other two coordinates (s, t) linearly, so that distances are those in the plane. Orientations stay the
+/// Maps the other two coordinates (s, t) linearly, so that distances equal those in the plane. Orientations stay the
 /// same.
 Point3 FacetPlane::flattened(const Point3& p) const {
   const Point3 s = turned(p, axis_);
@@ -135,7 +135,8 @@ WalkEnd FacetTriangulation::walk(std::uint32_t from, VertexId to) const {
   for (int steps = 0; steps < most_steps; ++steps) {
     const std::array<int, 3> signs = planar::signs_at_edges(t_, triangle, to, plane_);
     if (planar::is_within(signs)) return {triangle, {}};
-    // Each step begins with another edge, so that the walk cannot go in circles for long. A wall in the way ends it.
+    // Each step begins with a different edge, so that the walk cannot go in circles for long. A wall in the way ends
+    // it.
     std::optional<Side> exit;
     for (int i = 0; i < 3; ++i) {
       const Side side{triangle, static_cast<std::uint32_t>(i + steps) % 3};

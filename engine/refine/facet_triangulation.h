@@ -14,9 +14,9 @@
 
 namespace ccdt::refine {
 
-/// Exact planar predicates within a facet (a model of `planar::Predicates`). A facet that is flat only within the
-/// tolerance is flattened: its vertices are projected along the axis nearest to its normal, stretched to their true
-/// distances, and rounded. So they are exactly in one plane.
+/// Exact planar predicates within a facet (a model of `planar::Predicates`). A nearly flat facet is flattened: its
+/// vertices are projected along the axis nearest to its normal, stretched to their true distances, and rounded. So they
+/// are exactly in one plane.
 class FacetPlane {
  public:
   /// \param points  of all vertices, including those that come later; must outlive this
@@ -71,7 +71,7 @@ class FacetTriangulation {
   bool split(VertexId a, VertexId b, VertexId v) { return planar::split_edge(t_, a, b, v, plane_); }
 
  private:
-  /// A triangle of the facet as it was, and the steps in its plane.
+  /// A triangle of the original facet, and the steps in its plane.
   struct Patch {
     std::array<Point3, 3> corners;
     plc::PlaneSteps steps;

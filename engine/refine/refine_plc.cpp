@@ -30,8 +30,8 @@ using planar::Side;
 /// that length has 0.58.
 constexpr double largest_radius = 0.75;
 
-/// A triangle is badly shaped if its circumradius is more than this times its shortest edge, so that an angle is below
-/// 30 degrees.
+/// A triangle is badly shaped if its circumradius is more than this times its shortest edge, that is, if an angle is
+/// below 30 degrees.
 constexpr double worst_shape = 1;
 
 /// No vertex is nearer to another than this times the wanted length.
@@ -48,12 +48,12 @@ constexpr double most_shift = 0.2;
 
 /// On parts with many thin places, the mesh has about this many tetrahedra for each triangle of the surface; measured:
 /// 21 to 27.
-constexpr double tetrahedra_of_triangle = 25;
+constexpr double tetrahedra_per_triangle = 25;
 
 struct Shape {
   Point3 circumcenter;
   double radius = 0, shortest = 0;
-  std::uint32_t corner = 0;  ///< opposite to the shortest edge
+  std::uint32_t corner = 0;  ///< opposite the shortest edge
 };
 
 Shape shape_of(const std::array<Point3, 3>& t) {
@@ -171,8 +171,8 @@ class Refiner {
     split_evenly(segment, first, last, begin, VertexId(points_.size()));
   }
 
-  /// Splits the edge ab of a segment at the vertices from `begin` to before `end`, the middle one first: in the order
-  /// along the segment, each one would take over the edges of the one before.
+  /// Splits the edge ab of a segment at the vertices from `begin` to before `end`, the middle one first: if they were
+  /// taken in order along the segment, each one would take over the edges of the one before.
   void split_evenly(std::uint32_t segment, VertexId a, VertexId b, VertexId begin, VertexId end) {
     if (begin == end) return;
     const VertexId middle(begin + (end - begin) / 2);
@@ -238,7 +238,7 @@ class Refiner {
     }
   };
 
-  /// Is the smallest angle between segments? Then nothing helps.
+  /// Is the smallest angle between segments? If so, nothing helps.
   bool has_input_angle(const planar::Triangulation& t, std::uint32_t triangle, std::uint32_t corner) const {
     return t.constrained[triangle][planar::next_corner(corner)] &&
            t.constrained[triangle][planar::previous_corner(corner)];
@@ -249,7 +249,7 @@ class Refiner {
     return (wanted_[a] + wanted_[b] + wanted_[c]) / 3;
   }
 
-  /// How bad a triangle is: more than 1, and most of all if it is too large; 0 if it is good.
+  /// How bad a triangle is: 0 if it is good, otherwise more than 1, and largest if the triangle is too large.
   double badness_of(std::uint32_t facet, std::uint32_t triangle) const {
     const std::array<Point3, 3> t = corners(facet, triangle);
     const Shape shape = shape_of(t);
@@ -291,12 +291,12 @@ class Refiner {
     const Point3 middle = 0.5 * (t[(shape.corner + 1) % 3] + t[(shape.corner + 2) % 3]);
     const Point3 up = shape.circumcenter - middle;
     const double wanted = wanted_in(facet, triangle), height = length(up);
-    // The squared height over the shortest edge of a triangle whose sides have the wanted length (Rebay 1993), or at
-    // least of the equilateral one (Uengoer 2009).
+    // The squared height over the shortest edge of a triangle whose other sides have the wanted length (Rebay 1993), or
+    // at least that of the equilateral one (Uengoer 2009).
     const double even =
         std::max(wanted * wanted - 0.25 * shape.shortest * shape.shortest, 0.75 * shape.shortest * shape.shortest);
     if (height * height > even && put(facet, triangle, middle + (std::sqrt(even) / height) * up)) return true;
-    // The circumcenter of a needle may be beyond all coordinates. The way to it is blocked much nearer.
+    // The circumcenter of a needle may exceed all coordinates. The way to it is blocked much nearer.
     constexpr double farthest = 0x1p50;
     return put(facet, triangle, height < farthest ? shape.circumcenter : middle + (farthest / height) * up);
   }
@@ -322,7 +322,7 @@ class Refiner {
     return true;
   }
 
-  /// Calls visit(triangle) for the triangles whose circumcircle has the vertex.
+  /// Calls visit(triangle) for the triangles whose circumcircle contains the vertex.
   template <class Visit>
   void visit_cavity(std::uint32_t facet, std::uint32_t triangle, VertexId v, const Visit& visit) {
     const planar::Triangulation& t = triangulation(facet);
@@ -419,7 +419,7 @@ class Refiner {
 
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress) {
   const sizes::SizeField field = sizes::find_thin_places(plc, options.edge_length, options.grading,
-                                                         options.most_tetrahedra / tetrahedra_of_triangle);
+                                                         options.most_tetrahedra / tetrahedra_per_triangle);
   Refiner refiner(plc, field, progress);
   refiner.run();
   return std::move(refiner).take();

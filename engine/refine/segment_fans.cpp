@@ -18,7 +18,8 @@ namespace {
 /// Squared sine of the angle below which segments are in one fan: 30 degrees.
 constexpr double small_angle = 0.25;
 
-/// Unit vectors nearer than the first are surely at a smaller angle, those farther than the second at a larger one.
+/// Unit vectors nearer to each other than the first are surely at a smaller angle, those farther apart than the second
+/// at a larger one.
 constexpr double surely_small = 0.5176, surely_large = 0.5177;
 
 constexpr std::uint32_t most_spokes_in_leaf = 8;
@@ -52,7 +53,7 @@ class FanSearch {
     Box box;  ///< of the directions
     std::uint32_t begin, end;
     std::array<std::uint32_t, 2> children{};  ///< 0: a leaf
-    double step = 0, grazeable_step = 0;      ///< the largest, of all and of the grazeable ones
+    double step = 0, grazeable_step = 0;      ///< the largest step of all segments, and of the grazeable ones
     bool is_one_fan = false;
   };
 
@@ -139,7 +140,7 @@ class FanSearch {
 
   const std::vector<Spoke>& spokes_;
   std::vector<Point3> directions_;    // unit vectors
-  std::vector<std::uint32_t> order_;  // so that those of a node are together
+  std::vector<std::uint32_t> order_;  // the directions of a node are consecutive
   std::vector<Node> nodes_;
   UnionFind fans_;
   std::vector<double> distance_;  // of the fan that this one stands for

@@ -6,22 +6,22 @@
 
 namespace ccdt::refine {
 
-/// A segment as its common end with others sees it.
+/// A segment as seen from its common end with others.
 struct Spoke {
   Point3 along;     ///< from the common end to the other one
-  double step = 0;  ///< the distance between the places for vertices
+  double step = 0;  ///< the distance between possible vertices
   bool grazeable = false;
 };
 
-/// Finds the fans of the segments at a vertex: those that are joined by angles below 30 degrees. A vertex on a segment
-/// of a fan encroaches on all others, so the closest two decide for the whole fan.
+/// Finds the fans of the segments at a vertex. A fan's segments are joined by angles below 30 degrees. A vertex on a
+/// segment of a fan encroaches on all others, so the closest two decide for the whole fan.
 ///
-/// A step over the squared sine of an angle is the distance from the vertex at which two segments are so far apart that
-/// places on both fit each other. At a distance r they are r sin apart, and vertices there fit if their distances
-/// differ by at most a multiple of (r sin)^2 / r. The larger step of the two counts, and only grazeable segments are
-/// split because of each other; other pairs count as one step.
+/// At a distance r from the vertex, two segments are r sin apart, and vertices there fit each other if their distances
+/// differ by at most a multiple of (r sin)^2 / r. So they can fit from a distance of a step over the squared sine on.
+/// The larger step of the two counts. Only grazeable segments are split because of each other; other pairs count as one
+/// step.
 ///
-/// The directions are sorted into a tree of boxes, where whole boxes are joined or left out. So the time is nearly
+/// The directions are sorted into a tree of boxes, and whole boxes are joined or left out. So the time is nearly
 /// linear.
 ///
 /// \return  for each segment the largest such distance within its fan; 0: it is alone; infinite: two seem to coincide

@@ -40,7 +40,7 @@ class TriangleArranger {
  private:
   /// The line of a cut in the plane of the triangle.
   struct Line {
-    bool is_edge;  ///< of a triangle in the same plane, through a and b; else the line is where `plane` is
+    bool is_edge;  ///< of a triangle in the same plane, through a and b; otherwise the line is in `plane`
     Point3 a, b;
     ExactPlane plane;
     std::vector<std::uint32_t> points;  ///< of the cut: at first its two ends
@@ -109,7 +109,7 @@ class TriangleArranger {
     return meet_planes(plane_of(corners_), one.plane, other.plane);
   }
 
-  /// Is a point on the line of a cut between its ends, or one of them?
+  /// Is a point on the line of a cut between the cut's ends, or one of them?
   bool is_between(std::uint32_t point, const std::array<std::uint32_t, 2>& ends) const {
     for (int axis = 0; axis < 3; ++axis) {
       const int from = compare_along(axis, places_[point].exact, places_[ends[0]].exact);

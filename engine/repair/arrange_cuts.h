@@ -18,7 +18,7 @@ struct Arrangement {
 };
 
 /// Arrangements of all triangles that are cut, by triangle. What two triangles have in common is divided at the same
-/// points in both: these are the same exact points, so they are rounded alike.
+/// exact points in both, so these are rounded alike.
 std::vector<Arrangement> arrange_cuts(std::span<const Point3> vertices, const plc::TriangleSet& triangles,
                                       std::span<const Cut> cuts);
 

@@ -24,7 +24,7 @@ using plc::EdgeTable;
 struct OpenRims {
   std::vector<std::uint32_t> edges;
   std::vector<VertexId> vertices;
-  std::vector<double> reach;  ///< of each of these: the widest gap that may be closed at it
+  std::vector<double> reach;  ///< by vertex: the widest gap that may be closed there
 };
 
 /// No reach is more than half of the shortest open edge at its vertex, so that triangles do not collapse.
@@ -45,7 +45,7 @@ OpenRims find_rims(std::span<const Point3> points, const EdgeTable& edges, doubl
   return rims;
 }
 
-/// Boxes that hold the places within reach of the vertices.
+/// Boxes that hold everything within reach of the vertices.
 RawVector<Box> boxes_of(std::span<const Point3> points, const OpenRims& rims) {
   RawVector<Box> boxes;
   for (std::size_t i = 0; i < rims.vertices.size(); ++i)
@@ -61,7 +61,7 @@ struct Candidate {
   auto operator<=>(const Candidate&) const = default;
 };
 
-/// Those within reach of each other, the nearest first.
+/// The pairs within reach of each other, the nearest first.
 std::vector<Candidate> find_candidates(std::span<const Point3> points, const OpenRims& rims) {
   std::vector<Candidate> candidates;
   BoxTree(boxes_of(points, rims)).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
@@ -73,7 +73,7 @@ std::vector<Candidate> find_candidates(std::span<const Point3> points, const Ope
   return candidates;
 }
 
-/// Vertices move to the first one of their set, so sets are joined only if their first ones are near to each other.
+/// Vertices move to the first one of their set, so sets are joined only if their first ones are near each other.
 std::size_t merge_vertices(plc::UncheckedPlc& soup, double width) {
   const std::vector<Point3>& points = soup.plc.vertices;
   const OpenRims rims = find_rims(points, plc::make_edge_table(soup.triangles.corners), width);
@@ -103,7 +103,7 @@ struct Beside {
   auto operator<=>(const Beside&) const = default;
 };
 
-/// In order along each edge.
+/// The vertices beside edges, in order along each edge.
 std::vector<Beside> find_vertices_beside(std::span<const Point3> points, const plc::TriangleSet& triangles,
                                          const EdgeTable& edges, const OpenRims& rims) {
   const BoxTree tree(boxes_of(points, rims));
@@ -123,7 +123,7 @@ std::vector<Beside> find_vertices_beside(std::span<const Point3> points, const p
   return found;
 }
 
-/// Splits an edge of each triangle that has open ones with vertices beside them.
+/// In each triangle that has open edges with vertices beside them, splits one of these edges.
 std::size_t split_open_edges(plc::UncheckedPlc& soup, double width) {
   const EdgeTable edges = plc::make_edge_table(soup.triangles.corners);
   const OpenRims rims = find_rims(soup.plc.vertices, edges, width);

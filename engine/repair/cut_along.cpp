@@ -15,7 +15,7 @@ using plc::TriangleSet;
 
 constexpr std::size_t most_attempts = 4;  // to find all vertices of edges
 
-/// Appends a piece, divided where its edge is.
+/// Appends a piece, divided where its edge is divided.
 void append_divided(const Piece& piece, const EdgeChains& chains, std::vector<std::array<VertexId, 2>>& parts) {
   std::vector<VertexId> chain = chains.between(piece.a, piece.b);
   chain.insert(chain.begin(), piece.a);
@@ -28,7 +28,7 @@ void append_divided(const Piece& piece, const EdgeChains& chains, std::vector<st
   for (auto v = begin; v != end; ++v) parts.push_back({*v, *(v + 1)});
 }
 
-/// The triangles that get parts, in increasing order, and these.
+/// The triangles that get parts, in increasing order, and their parts.
 struct Parts {
   std::vector<std::uint32_t> triangles;
   std::vector<TriangleParts> parts;
@@ -59,7 +59,7 @@ Parts cut_triangles(const plc::UncheckedPlc& soup, const VertexCuts& cuts, const
   return result;
 }
 
-/// Puts the vertices that rounding moved beyond edges on these. Were there any?
+/// Puts vertices that rounding moved beyond an edge onto that edge. Were there any?
 bool add_vertices_of_edges(const TriangleSet& triangles, const Parts& parts, VertexCuts& cuts) {
   const std::size_t before = cuts.on_edges.size();
   for (std::size_t i = 0; i < parts.triangles.size(); ++i)

@@ -9,7 +9,7 @@
 
 namespace ccdt::repair {
 
-/// A part of an edge, as `WeldedEdge`; or a cut between two vertices, as if there were an edge.
+/// A part of an edge, as in `WeldedEdge`; or a cut between two vertices, which is treated like an edge.
 struct Piece {
   std::uint32_t triangle;
   VertexId a, b, from, to;
@@ -25,8 +25,8 @@ inline std::uint64_t key_of_edge(const plc::VertexTriple& t, std::size_t k) {
   return edge_key(t[k], t[plc::next_corner(k)]);
 }
 
-/// Replaces the triangles that have pieces, or vertices on their edges, by smaller ones with these. Divides segments
-/// with the edges that they are.
+/// Replaces the triangles that have pieces, or vertices on their edges, by smaller ones that contain these. Segments
+/// are divided with their edges.
 ///
 /// \return  how many triangles were replaced
 std::size_t cut_along(VertexCuts cuts, plc::UncheckedPlc& soup);

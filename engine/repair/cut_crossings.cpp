@@ -25,20 +25,19 @@ using plc::TrianglePair;
 using plc::TriangleSet;
 
 constexpr std::string_view stage = "cut crossings";
-constexpr std::size_t most_rounds_of_cuts = 16;  // general positions need one, welds mostly up to eight
+constexpr std::size_t most_rounds_of_cuts = 16;  // general position needs one round, welds usually up to eight
 
-/// More of them are none that anybody meant: cuts along accidental intersections make ever more.
+/// Nobody meant to have more triangles than this: cuts along accidental intersections make ever more.
 std::size_t most_triangles(std::size_t given, std::size_t pairs) {
   return 16 * given + 32 * pairs + 1000;
 }
 
-/// Leaves triangles that have an area, are pairwise different and have no vertices on them. Returns the pairs that may
-/// cross.
+/// Leaves distinct triangles that have an area and no vertices on them. Returns the pairs that may cross.
 std::vector<TrianglePair> clean(std::span<const Point3> vertices, TriangleSet& triangles, Fins fins) {
   plc::drop_triangles_without_area(vertices, triangles);
   drop_equal_triangles(triangles, fins);
   std::vector<TrianglePair> close = plc::make_conforming(vertices, triangles);
-  // Pieces may be equal to others.
+  // Pieces may equal other triangles.
   if (drop_equal_triangles(triangles, fins) > 0) close = plc::find_close_triangles(vertices, triangles);
   return close;
 }
@@ -67,7 +66,7 @@ VertexCuts number_vertices(const Welds& welds, double reach, plc::UncheckedPlc& 
   return cuts;
 }
 
-/// Makes equal vertices one, the first of them.
+/// Merges equal vertices into the first of them.
 void merge_vertices(const std::vector<std::array<VertexId, 2>>& equal, plc::UncheckedPlc& soup,
                     std::vector<std::uint8_t>& is_near) {
   plc::Plc& plc = soup.plc;
@@ -105,7 +104,7 @@ void mark_near(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup, std:
       for (const VertexId v : soup.triangles.corners[t]) is_near[v] = 1;
 }
 
-/// Finds what should touch and does not, once something near it was to be cut.
+/// Finds what should touch and does not, once something nearby was to be cut.
 class WeldSearch {
  public:
   explicit WeldSearch(const CutOptions& options)
@@ -116,14 +115,14 @@ class WeldSearch {
     if (is_near_everywhere_) std::ranges::fill(is_near, std::uint8_t{1});
     Welds welds = find_welds(soup.plc.vertices, soup.triangles, is_near, reach);
     if (welds.empty() || is_near_everywhere_) return welds;
-    // What should touch in one place may be so all around.
+    // What should touch in one place may also have to touch elsewhere.
     is_near_everywhere_ = true;
     std::ranges::fill(is_near, std::uint8_t{1});
     return find_welds(soup.plc.vertices, soup.triangles, is_near, reach);
   }
 
   WeldReach reach;
-  std::vector<std::uint8_t> is_near;  ///< by vertex: of triangles that were or are to be cut
+  std::vector<std::uint8_t> is_near;  ///< by vertex: is it one of a triangle that was or is to be cut?
 
  private:
   bool is_near_everywhere_;
@@ -137,7 +136,7 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
   const std::size_t given = soup.triangles.size();
   for (;; ++counts.rounds) {
     report(progress, stage, counts.rounds, most_rounds_of_cuts);
-    const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be meant
+    const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be intended
     const std::vector<TrianglePair> close = clean(soup.plc.vertices, soup.triangles, fins);
     const Cuts found = find_cuts(soup.plc.vertices, soup.triangles, close);
     counts.left = found.pairs;
@@ -155,7 +154,7 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
     const std::vector<plc::VertexTriple> before = soup.triangles.corners;
     if (!welds.empty()) counts.cut += cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
     if (soup.triangles.corners != before) continue;
-    if (found.pairs == 0) break;  // what is near to each other is welded as far as that is possible
+    if (found.pairs == 0) break;  // things near each other are welded as far as possible
     counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
   }
   report(progress, stage, most_rounds_of_cuts, most_rounds_of_cuts);

@@ -9,15 +9,15 @@ namespace ccdt::repair {
 
 /// What was done where triangles crossed or covered each other.
 struct CutCounts {
-  std::size_t pairs = 0;   ///< of triangles that met in more than common corners and edges, at first
+  std::size_t pairs = 0;   ///< of triangles that shared more than corners and edges at first
   std::size_t cut = 0;     ///< triangles that were replaced by smaller ones, in all rounds
   std::size_t rounds = 0;  ///< of cuts and welds; one if nothing almost touches
   std::size_t left = 0;    ///< pairs that still meet after the last round
 };
 
 struct CutOptions {
-  double tolerance = 0;          ///< in grid units: what is this near to each other should touch; a few quanta always
-                                 ///< are, because of rounding
+  double tolerance = 0;          ///< in grid units: things this close should touch; a few quanta are always
+                                 ///< close enough, because of rounding
   bool weld_everywhere = false;  ///< also where nothing crosses
 };
 
@@ -27,12 +27,12 @@ struct CutOptions {
 /// The points where triangles meet are found exactly and rounded to the quantum. Equal points are one vertex, in all
 /// triangles that have it, so the surface stays closed where it was. What rounding makes cross is cut in another round.
 ///
-/// Facets that should touch, such as those of turned solids that stand on each other, do so only within the rounding of
-/// their vertices. Where triangles cross, what is within the tolerance of each other is welded before it is cut. This
-/// merges vertices and renumbers them.
+/// Facets that should touch, such as those of two rotated solids, one on top of the other, touch only up to the
+/// rounding of their vertices. So where triangles cross, whatever is within the tolerance is welded before it is cut.
+/// This merges vertices and renumbers them.
 ///
 /// A soup without crossings, vertices on triangles, equal triangles and triangles without area stays as it is. Segments
-/// that are edges are divided with these; other segments may still cross triangles.
+/// that are edges are divided with them; other segments may still cross triangles.
 CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::repair

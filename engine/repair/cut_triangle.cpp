@@ -19,7 +19,7 @@ void sort_each_once(auto& items) {
   items.erase(again.begin(), again.end());
 }
 
-/// Keeps of equal items one if their number is odd, and none if it is even.
+/// Of equal items, keeps one if their number is odd, and none if it is even.
 void sort_and_cancel(std::vector<Edge>& edges) {
   std::ranges::sort(edges);
   std::vector<Edge> kept;
@@ -47,7 +47,7 @@ class TriangleCutter {
       around_.push_back(triangle.corners[k]);
       around_.insert(around_.end(), triangle.on_edges[k].begin(), triangle.on_edges[k].end());
     }
-    // What the outline passes there and back again has no inside. Its neighbors meet there.
+    // Where the outline runs out and back, there is no inside, and its neighbors meet.
     for (std::size_t i = 0; i < around_.size(); ++i)
       outline_.push_back(sorted(around_[i], around_[(i + 1) % around_.size()]));
     sort_and_cancel(outline_);
@@ -73,7 +73,7 @@ class TriangleCutter {
   }
 
  private:
-  /// Does the triangulation have the given outline? Then its triangles are taken.
+  /// Takes the triangles of the triangulation if it has the given outline. \return does it?
   bool take(const planar::Triangulation& t, std::vector<VertexTriple>& parts) const {
     if (planar::border_edges(t) != outline_) return false;
     for (const auto& [a, b, c] : t.triangles)

@@ -16,7 +16,7 @@ EdgeChains::EdgeChains(std::span<const Point3> vertices, std::vector<AtEdge> on_
       if (v != a && v != b && (vertices_.size() == begin || vertices_.back() != v)) vertices_.push_back(v);
     }
     if (vertices_.size() == begin) return;
-    // Rounding does not exchange points along the axis. Those that it makes equal there have some fixed order.
+    // Rounding does not change the order of points along the axis. Points that it makes equal get a fixed order.
     const Point3 along = vertices[b] - vertices[a];
     const auto axis = static_cast<std::size_t>(dominant_axis(along));
     const double sense = as_array(along)[axis] < 0 ? -1 : 1;

@@ -19,7 +19,7 @@ class EdgeChains {
   EdgeChains(std::span<const Point3> vertices, std::vector<AtEdge> on_edges);
 
   bool has(VertexId a, VertexId b) const { return places_.contains(edge_key(a, b)); }
-  /// Those between a and b, in order.
+  /// The vertices between a and b, in order.
   std::vector<VertexId> between(VertexId a, VertexId b) const;
 
  private:

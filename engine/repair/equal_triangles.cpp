@@ -14,7 +14,7 @@ namespace {
 
 using plc::TriangleSet;
 
-/// Which triangles stay, and of each of them: is it one of several that cancel each other, by the ways they face?
+/// Which triangles stay, and for each of them: is it one of several that cancel out, because they face opposite ways?
 struct Different {
   std::vector<char> is_kept, cancels;
 };
@@ -37,9 +37,9 @@ Different find_different(const TriangleSet& triangles) {
 }
 
 /// The triangles that are left at an edge.
-struct AtOneEdge {
+struct EdgeTriangles {
   std::uint32_t count = 0;
-  std::uint32_t all = 0;  ///< their numbers, combined by exclusive or: of one triangle, its number
+  std::uint32_t all = 0;  ///< their numbers, combined by exclusive or; the number itself if there is one triangle
 };
 
 template <class Visit>
@@ -48,11 +48,11 @@ void for_each_edge(const plc::VertexTriple& t, const Visit& visit) {
 }
 
 void drop_fins(const TriangleSet& triangles, Different& different) {
-  HashTable<std::uint64_t, AtOneEdge> edges;
+  HashTable<std::uint64_t, EdgeTriangles> edges;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
     if (different.is_kept[t])
       for_each_edge(triangles.corners[t], [&](std::uint64_t edge) {
-        AtOneEdge& at = *edges.insert(edge).first;
+        EdgeTriangles& at = *edges.insert(edge).first;
         ++at.count;
         at.all ^= t;
       });
@@ -67,7 +67,7 @@ void drop_fins(const TriangleSet& triangles, Different& different) {
     if (!is_free || !different.is_kept[t]) continue;
     different.is_kept[t] = 0;
     for_each_edge(triangles.corners[t], [&](std::uint64_t edge) {
-      AtOneEdge& at = *edges.find(edge);
+      EdgeTriangles& at = *edges.find(edge);
       --at.count;
       at.all ^= t;
       if (at.count == 1 && different.cancels[at.all]) open.push_back(at.all);

@@ -10,11 +10,11 @@ namespace ccdt::repair {
 /// What remains of triangles with the same corners.
 enum class Fins {
   keep,  ///< the first one
-  drop   ///< the same, but of two that face opposite ways none, if an edge has no other triangle: they enclose nothing
+  drop   ///< the first one; but neither of two opposite ones if an edge has no other triangle: they enclose nothing
 };
 
-/// Makes triangles pairwise different.
-/// \return  the number of the dropped ones
+/// Makes triangles pairwise distinct.
+/// \return  how many were dropped
 std::size_t drop_equal_triangles(plc::TriangleSet& triangles, Fins fins);
 
 }  // namespace ccdt::repair

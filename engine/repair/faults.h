@@ -28,7 +28,7 @@ enum class FaultKind : std::uint8_t {
   equal_vertices,
   unused_vertices,
   split_facets,
-  bent_facets,
+  warped_facets,
   turned_edges,
   shared_edges,
   inward_facets
@@ -39,7 +39,7 @@ constexpr auto names_of(FaultKind) {
   return std::to_array<NamedValue<FaultKind>>(
       {{coordinates, "coordinates", "vertices with a coordinate that is not a finite number"},
        {no_facets, "no-facets", "the input has no facet with an area"},
-       {polygons, "polygons", "facets that are no polygons in one plane"},
+       {polygons, "polygons", "facets that are not polygons in one plane"},
        {duplicate_facets, "duplicate-facets", "facets with the same corners as another one"},
        {covering_facets, "covering-facets", "pairs of facets in one plane that cover each other"},
        {crossing_facets, "crossing-facets", "pairs of facets that cross each other"},
@@ -52,7 +52,7 @@ constexpr auto names_of(FaultKind) {
        {equal_vertices, "equal-vertices", "vertices at the place of another one, which are merged"},
        {unused_vertices, "unused-vertices", "vertices without a facet or segment"},
        {split_facets, "split-facets", "facets with a vertex inside or on an edge, which are split there"},
-       {bent_facets, "bent-facets", "polygons that are not planar, which are triangulated"},
+       {warped_facets, "bent-facets", "polygons that are not planar, which are triangulated"},
        {turned_edges, "turned-edges", "edges whose two facets have opposite orientations"},
        {shared_edges, "shared-edges", "edges with more than two facets"},
        {inward_facets, "inward-facets", "facets whose normal points into the domain"}});
@@ -70,10 +70,10 @@ struct Fault {
 
 /// What an input is, and what is wrong with it.
 struct Diagnosis {
-  std::uint64_t vertices = 0, facets = 0, segments = 0;  ///< as the file has them
+  std::uint64_t vertices = 0, facets = 0, segments = 0;  ///< as in the file
   std::vector<Fault> faults = {};                        ///< errors first
   // Of a valid input:
-  std::uint64_t regions = 0;  ///< parts into which facets divide the domain
+  std::uint64_t regions = 0;  ///< parts that facets divide the domain into
   double volume = 0;          ///< of the domain
 
   /// Can it be meshed?

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "engine/base/errors.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/edge_table.h"
+#include "engine/plc/warped_facets.h"
 #include "engine/repair/open_edges.h"
 
 namespace ccdt::repair {
@@ -35,9 +35,9 @@ std::vector<plc::VertexTriple> triangulate(std::span<const Point3> points, std::
   input.polygon_facets.push_back(std::move(facet));
   std::vector<plc::VertexTriple> triangles;
   try {
-    if (auto bent = plc::triangulate_bent_facets(input)) input = std::move(*bent);
+    if (auto triangulated = plc::triangulate_warped_facets(input)) input = std::move(*triangulated);
     const plc::UncheckedPlc gathered = plc::gather_plc(input);
-    // The corners are different, and the grid of a part is finer than that of the whole.
+    // The corners are distinct, and the grid of a part is finer than that of the whole, so none were merged.
     for (const auto& [a, b, c] : gathered.triangles.corners) triangles.push_back({corners[a], corners[b], corners[c]});
   } catch (const InputError&) {
     triangles.clear();

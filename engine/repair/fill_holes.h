@@ -13,8 +13,8 @@ struct HoleCounts {
   std::size_t triangles = 0;  ///< that fill them
 };
 
-/// Fills each loop of open edges as a polygon: a flat one by its triangulation in the plane, another one so that it
-/// bends least (`plc::triangulate_bent_facets`).
+/// Fills each loop of open edges as a polygon: a flat one by a triangulation in its plane, any other so that it bends
+/// least (`plc::triangulate_warped_facets`).
 HoleCounts fill_holes(plc::UncheckedPlc& soup, Rims which = Rims::of_holes);
 
 }  // namespace ccdt::repair

@@ -15,13 +15,13 @@ namespace {
 using plc::VertexTriple;
 using Triangle = std::array<Point3, 3>;
 
-/// A triangle with what is known about it in a pair.
+/// A triangle of a pair, and what is known about it.
 struct Member {
   std::uint32_t number;
   VertexTriple corners;
   Triangle points;
   Sides sides;                         ///< of the corners, against the plane of the other triangle
-  std::array<bool, 3> is_common = {};  ///< is the corner one of the other triangle too?
+  std::array<bool, 3> is_common = {};  ///< is it also a corner of the other triangle?
 };
 
 Member make_member(std::span<const Point3> vertices, std::uint32_t number, const VertexTriple& corners,
@@ -35,7 +35,7 @@ Member make_member(std::span<const Point3> vertices, std::uint32_t number, const
   return member;
 }
 
-/// Different points, at most two of which are kept. Those where two triangles meet are on a line.
+/// Distinct points, at most two of which are kept. The points where two triangles meet are on a line.
 struct EndPoints {
   std::array<ExactPoint, 2> points;
   std::size_t count = 0;
@@ -54,7 +54,7 @@ bool has_edge(const VertexTriple& t, VertexId a, VertexId b) {
   return plc::has_corner(t, a) && plc::has_corner(t, b);
 }
 
-/// Adds where an edge of the one, in the plane of the other, crosses the edges of the other.
+/// Adds the points where an edge of one triangle, in the plane of the other, crosses the other's edges.
 void add_crossings(const Member& one, std::size_t k, const Member& other, int axis, EndPoints& ends) {
   const Point3 &p = one.points[k], &q = one.points[plc::next_corner(k)];
   for (std::size_t j = 0; j < 3; ++j) {
@@ -65,7 +65,7 @@ void add_crossings(const Member& one, std::size_t k, const Member& other, int ax
   }
 }
 
-/// Adds where the edges of the one meet the other, which is in another plane.
+/// Adds the points where the edges of one triangle meet the other, which is in another plane.
 void add_ends(const Member& one, const Member& other, EndPoints& ends) {
   std::optional<ExactPlane> plane;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -90,7 +90,7 @@ void cut_across(const Member& s, const Member& t, std::vector<Cut>& cuts) {
   cuts.push_back({t.number, s.number, Cut::in_plane, std::move(ends.points)});
 }
 
-/// Cuts the one along the edges of the other in the same plane.
+/// Cuts one triangle along the edges of the other, which is in the same plane.
 void cut_along_edges(const Member& one, const Member& other, std::vector<Cut>& cuts) {
   const int axis = dominant_axis(one.points);
   for (std::size_t k = 0; k < 3; ++k) {

@@ -12,7 +12,7 @@
 
 namespace ccdt::repair {
 
-/// A part of a triangle along which it must be cut, because another triangle is there.
+/// Where a triangle must be cut, because another triangle is there.
 struct Cut {
   /// The cut is not along an edge, but where the plane of the other triangle is.
   static constexpr int in_plane = -1;
@@ -23,14 +23,14 @@ struct Cut {
   std::array<ExactPoint, 2> ends;  ///< equal if the triangles only touch in a point
 };
 
-/// The cuts of all pairs of triangles that meet in more than common corners and edges. Triangles in one plane that meet
-/// across a common edge do not count unless they are folded over each other.
+/// The cuts of all pairs of triangles that share more than corners and edges. Triangles in one plane that meet across a
+/// common edge do not count unless they are folded over each other.
 struct Cuts {
   std::size_t pairs = 0;
   std::vector<Cut> cuts;  ///< in the order of the pairs
 };
 
-/// \param triangles  with an area, pairwise different, and with no vertex of others on them
+/// \param triangles  distinct, with an area, and with no vertex of others on them
 /// \param close      of the triangles
 Cuts find_cuts(std::span<const Point3> vertices, const plc::TriangleSet& triangles,
                std::span<const plc::TrianglePair> close);

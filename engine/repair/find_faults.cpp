@@ -106,7 +106,7 @@ void find_vertex_faults(const InputPlc& input, const Plc& plc, Diagnosis& diagno
   std::move(unused).add_to(diagnosis);
 }
 
-/// The facets of which there are more triangles than before.
+/// The facets that have more triangles than before.
 void find_split_facets(const Plc& plc, const TriangleSet& before, const TriangleSet& after, Diagnosis& diagnosis) {
   if (before.size() == after.size()) return;
   std::unordered_map<std::uint32_t, std::int64_t> more;  // by the number of the facet
@@ -198,7 +198,7 @@ class FaultLister : public plc::Examiner {
     report(progress_, check_stage, 3, check_steps);
   }
 
-  /// Conforming ones, as the file orients them.
+  /// The conforming triangles, oriented as in the file.
   const TriangleSet& triangles() const { return triangles_; }
 
  private:
@@ -211,7 +211,7 @@ class FaultLister : public plc::Examiner {
 /// The facets of the file whose normals point into the domain.
 ///
 /// \param outward  triangles between the domain and the rest, with normals that point out of it
-/// \param given    triangles as the file has them
+/// \param given    triangles as in the file
 void find_inward_facets(const Plc& plc, const std::vector<plc::VertexTriple>& outward, const TriangleSet& given,
                         Diagnosis& diagnosis) {
   const FaceMap faces(outward, plc.vertices.size());
@@ -227,7 +227,7 @@ void find_inward_facets(const Plc& plc, const std::vector<plc::VertexTriple>& ou
   std::move(list).add_to(diagnosis);
 }
 
-/// The volume that triangles enclose which face outward. Far from the origin, products of coordinates would cancel.
+/// The volume enclosed by triangles that face outward. Far from the origin, products of coordinates would cancel.
 double volume_within(const Plc& plc, const std::vector<plc::VertexTriple>& outward) {
   double sixfold = 0;
   const Point3 origin = plc.world.front();
@@ -236,7 +236,7 @@ double volume_within(const Plc& plc, const std::vector<plc::VertexTriple>& outwa
   return sixfold / 6;
 }
 
-/// What only the finished PLC shows. An error that it has left, as that of a seed, is a fault of the domain.
+/// Finds what only the finished PLC shows. An error that remains, such as that of a seed, is a fault of the domain.
 ///
 /// \param examined  without other errors
 /// \param given     its triangles as the file orients them
@@ -278,12 +278,12 @@ Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& pr
   }
   report(progress, check_stage, 1, check_steps);
   FaultList polygons(FaultKind::polygons, true), without_area(FaultKind::facets_without_area, false);
-  for (const Place& place : soup.no_polygons) polygons.add([&] { return place; });
+  for (const Place& place : soup.invalid_polygons) polygons.add([&] { return place; });
   for (const std::uint32_t number : soup.without_area) without_area.add([&] { return Place{.facets = {number}}; });
   std::move(polygons).add_to(diagnosis);
   std::move(without_area).add_to(diagnosis);
-  if (soup.input.bent.count > 0)
-    diagnosis.faults.push_back({.kind = FaultKind::bent_facets, .count = soup.input.bent.count});
+  if (soup.input.warped.count > 0)
+    diagnosis.faults.push_back({.kind = FaultKind::warped_facets, .count = soup.input.warped.count});
   find_vertex_faults(input, soup.parts.plc, diagnosis);
 
   FaultLister lister(input.inside == InputPlc::Inside::even_odd, progress, diagnosis);

@@ -9,11 +9,11 @@ namespace ccdt::repair {
 
 /// Lists everything that is wrong with an input, instead of stopping at the first error as `plc::build_plc` does.
 ///
-/// The input is valid exactly if `plc::build_plc` accepts it after `plc::triangulate_bent_facets`. Only where vertices
-/// have no finite coordinates, or no facet has an area, nothing else is looked for.
+/// The input is valid exactly if `plc::build_plc` accepts it after `plc::triangulate_warped_facets`. If a coordinate is
+/// not finite, or no facet has an area, nothing else is looked for.
 ///
 /// \param input     as it was read
-/// \param flatness  tolerance for flat facets, as that of the mesher
+/// \param flatness  tolerance for flat facets, as in the mesher
 /// \param progress  called repeatedly; throw from it to cancel
 Diagnosis find_faults(const plc::InputPlc& input, double flatness = usual_flatness, const Progress& progress = {});
 

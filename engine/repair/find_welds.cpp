@@ -18,7 +18,7 @@ namespace {
 
 using plc::VertexTriple;
 
-/// An edge, from its smaller end to its greater.
+/// An edge, from its smaller end to its greater one.
 struct EdgeEnds {
   VertexId a, b;
   std::uint64_t key() const { return edge_key(a, b); }
@@ -35,7 +35,7 @@ std::optional<std::array<double, 2>> nearest_on_lines(const Point3& p, const Poi
     const IntegerPoint x = to_integers(a), y = to_integers(b);
     return Long(Wide(x[0]) * y[0] + Wide(x[1]) * y[1] + Wide(x[2]) * y[2]);
   };
-  // Differences of these are tiny for nearly parallel lines.
+  // Differences of these products are tiny for nearly parallel lines.
   const Long uu = product(u, u), uv = product(u, v), vv = product(v, v);
   const Long up = product(u, p - q), vp = product(v, p - q);
   const Long determinant = uu * vv - uv * uv;
@@ -79,7 +79,7 @@ class WeldFinder {
     bool is_inexact = false;  ///< is anything near, but not at the same place?
   };
 
-  /// Where something is at a triangle: a bit for each edge that it is on, none within it.
+  /// Where something is at a triangle: a bit for each edge that it is on; no bits if it is inside.
   using Mask = unsigned;
 
   /// A point of an edge at a triangle.
@@ -89,7 +89,7 @@ class WeldFinder {
     Mask mask;
   };
 
-  /// Looks for vertices and edges of the one at the other.
+  /// Looks for vertices and edges of one triangle at the other.
   void look_from(std::uint32_t one, std::uint32_t other, Pair& pair) const {
     const VertexTriple &c = triangles_.corners[one], &t = triangles_.corners[other];
     const Box box = expanded(bounding_box(plc::points_of(vertices_, t)), reach_.vertices);

@@ -11,21 +11,21 @@
 
 namespace ccdt::repair {
 
-/// How near to each other things should touch, in grid units.
+/// At what distance things should touch, in grid units.
 struct WeldReach {
   double edges = 4 * DyadicGrid::quantum;  ///< vertices and edges at edges and triangles. Rounding moves each
                                            ///< point by less than a quantum
-  double vertices = 2 * edges;             ///< greater: a vertex that is to be on an edge is not beside its end
+  double vertices = 2 * edges;             ///< greater, so a vertex that should be on an edge is not near its end
 };
 
-/// A part of an edge, or a vertex (if a = b), that runs within a triangle but for the rounding to the grid.
+/// A part of an edge, or a vertex (if a = b), that would be within a triangle without the rounding to the grid.
 struct WeldedEdge {
   std::uint32_t triangle;
   VertexId a, b;    ///< of the edge
-  Point3 from, to;  ///< of the part, as a walk along the edge from a to b meets them
+  Point3 from, to;  ///< of the part, in the order of a walk along the edge from a to b
 };
 
-/// What is so near to each other that it should have been at the same place.
+/// Things so near each other that they should have been at the same place.
 struct Welds {
   std::vector<std::array<VertexId, 2>> equal;              ///< vertices that should be one
   std::vector<std::pair<std::uint64_t, Point3>> on_edges;  ///< edges (`edge_key`), and points that should be on them
@@ -34,9 +34,9 @@ struct Welds {
   bool empty() const { return equal.empty() && on_edges.empty() && in_triangles.empty(); }
 };
 
-/// Finds triangles that would touch or cover each other if the grid were infinitely fine, and do not.
+/// Finds triangles that would touch or cover each other on an infinitely fine grid, but do not on this one.
 ///
-/// In such places the exact intersections are accidental: to cut along them makes ever more tiny triangles.
+/// In such places the exact intersections are accidental: cutting along them makes ever more tiny triangles.
 ///
 /// \param is_near  by vertex: only triangles with such a corner are looked at
 Welds find_welds(std::span<const Point3> vertices, const plc::TriangleSet& triangles,

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/plc/bent_facets.h"
+#include "engine/plc/warped_facets.h"
 
 namespace ccdt::repair {
 namespace {
 
-/// The facets of which no triangle is left. Those of one or two vertices never have any.
+/// The facets that have no triangle left. Those with one or two vertices never have any.
 std::vector<std::uint32_t> find_facets_without_area(const plc::InputPlc& input, const plc::TriangleSet& triangles) {
   std::vector<std::uint32_t> expected;
   for (std::uint32_t t = 0; t < input.triangles.size(); ++t)
@@ -32,7 +32,7 @@ Soup gather_soup(const plc::InputPlc& given, const plc::PlcOptions& options) {
   soup.input = given;
   while (true) {
     try {
-      if (auto triangulated = plc::triangulate_bent_facets(soup.input)) soup.input = std::move(*triangulated);
+      if (auto triangulated = plc::triangulate_warped_facets(soup.input)) soup.input = std::move(*triangulated);
       soup.parts = plc::gather_plc(soup.input, options);
       soup.without_area = find_facets_without_area(soup.input, soup.parts.triangles);
       return soup;
@@ -41,7 +41,7 @@ Soup gather_soup(const plc::InputPlc& given, const plc::PlcOptions& options) {
       if (error.place().facets.size() != 1) throw;
       const auto is_named = [&](const plc::PolygonFacet& facet) { return facet.number == error.place().facets[0]; };
       if (std::erase_if(soup.input.polygon_facets, is_named) == 0) throw;
-      soup.no_polygons.push_back({.points = error.place().points, .facets = error.place().facets});
+      soup.invalid_polygons.push_back({.points = error.place().points, .facets = error.place().facets});
     }
   }
 }

@@ -10,11 +10,11 @@
 
 namespace ccdt::repair {
 
-/// An input as triangles, without what cannot be one.
+/// An input as triangles, without facets that cannot be triangles.
 struct Soup {
-  plc::InputPlc input;             ///< without the polygons that are none; bent ones are triangles
-  plc::UncheckedPlc parts;         ///< the triangles that have an area, and the segments
-  std::vector<Place> no_polygons;  ///< the facets that were left out, because they are no polygons in one plane
+  plc::InputPlc input;                  ///< without invalid polygons; warped ones are triangles
+  plc::UncheckedPlc parts;              ///< the triangles that have an area, and the segments
+  std::vector<Place> invalid_polygons;  ///< the facets that were left out, because they are not polygons in one plane
   std::vector<std::uint32_t> without_area;  ///< the numbers of facets that were left out, because they have no area
 };
 

@@ -9,7 +9,7 @@
 namespace ccdt::repair {
 namespace {
 
-/// The open edges and, of each vertex that they have, those at it.
+/// The open edges, and for each of their vertices the edges at it.
 struct OpenGraph {
   std::vector<std::array<VertexId, 2>> ends;
   std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> at;  ///< by vertex
@@ -39,7 +39,7 @@ struct OpenGraph {
   }
 };
 
-/// Walks on as long as there are edges. Whenever the walk meets itself, it leaves a loop behind.
+/// Walks on until no edge is left. Whenever the walk meets itself, it leaves a loop behind.
 void walk(VertexId start, OpenGraph& graph, OpenEdges& found) {
   std::vector<VertexId> path = {start};
   std::unordered_map<std::uint32_t, std::size_t> place_of = {{start, 0}};

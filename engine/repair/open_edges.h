@@ -10,7 +10,7 @@ namespace ccdt::repair {
 
 /// The edges with one triangle, as chains of vertices.
 struct OpenEdges {
-  std::vector<std::vector<VertexId>> loops;   ///< closed, each with different vertices: the rims of holes
+  std::vector<std::vector<VertexId>> loops;   ///< closed, each with distinct vertices: the rims of holes
   std::vector<std::vector<VertexId>> chains;  ///< from one end to another: the rims of flaps
 };
 
@@ -20,10 +20,10 @@ OpenEdges find_open_edges(const plc::EdgeTable& edges);
 /// The triangle at an open edge.
 std::uint32_t triangle_at(const plc::EdgeTable& edges, VertexId a, VertexId b);
 
-/// Which rims are those of holes.
+/// Which rims belong to holes.
 enum class Rims {
-  of_holes,  ///< loops, and chains that an edge of two triangles closes: a third one was there
-  all        ///< also chains that any other edge closes
+  of_holes,  ///< loops, and chains closed by an edge with two triangles, where a third triangle is missing
+  all        ///< also chains closed by any other edge
 };
 
 /// Does an edge between the ends of a chain make it the rim of a hole?

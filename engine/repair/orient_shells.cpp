@@ -11,7 +11,7 @@ namespace {
 
 enum class Way : std::uint8_t { unknown, as_given, turned };
 
-/// Finds the ways of a connected part, if its first triangle stays as it is.
+/// Finds which triangles of a connected part must be turned if the first one stays as it is.
 ///
 /// \return  its triangles
 std::vector<std::uint32_t> spread(std::uint32_t first, const plc::EdgeTable& edges, std::vector<Way>& ways) {

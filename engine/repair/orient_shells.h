@@ -7,8 +7,8 @@
 
 namespace ccdt::repair {
 
-/// Turns triangles so that neighbors across edges of two triangles face the same way. Of each connected part, those
-/// that have less area in all are turned.
+/// Turns triangles so that neighbors across edges of two triangles face the same way. In each connected part, those
+/// facing the way with less total area are turned.
 void orient_shells(plc::UncheckedPlc& soup);
 
 /// The triangles between the domain and the rest, with normals that point out of the domain.

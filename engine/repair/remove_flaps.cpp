@@ -15,7 +15,7 @@ namespace {
 
 using plc::EdgeTable;
 
-/// Of the area of all triangles: nothing greater is taken for a flap.
+/// As a share of the area of all triangles: nothing larger is taken for a flap.
 constexpr double largest_flap = 0.5;
 
 bool is_loose(std::uint32_t triangle, const EdgeTable& edges) {

@@ -7,14 +7,14 @@
 namespace ccdt::repair {
 namespace {
 
-/// A triangle at a region, and on which side of it the region is.
+/// A triangle that bounds a region, and the side that the region is on.
 struct Window {
   plc::VertexTriple corners;
   double area = 0;
   bool above = false;
 };
 
-/// Of each region, its largest triangle: the winding number near it is the most reliable.
+/// The largest triangle of each region, because the winding number near it is the most reliable.
 std::vector<Window> find_windows(const plc::Plc& plc) {
   std::vector<Window> windows(plc.regions.size());
   for (const plc::Facet& facet : plc.facets)
@@ -28,7 +28,7 @@ std::vector<Window> find_windows(const plc::Plc& plc) {
   return windows;
 }
 
-/// A point of the region: beside the middle of the triangle, by a tiny part of its size.
+/// A point of the region: off the middle of the triangle by a tiny part of its size.
 Point3 look_through(const plc::Plc& plc, const Window& window) {
   const auto [a, b, c] = plc::points_of(plc.vertices, window.corners);
   constexpr double step = 1e-6;
@@ -36,7 +36,7 @@ Point3 look_through(const plc::Plc& plc, const Window& window) {
   return (1.0 / 3) * (a + b + c) + (window.above ? 1 : -1) * step * std::sqrt(window.area) * normal;
 }
 
-/// Of each region: how often the surface goes around it.
+/// How often the surface goes around each region.
 std::vector<long> wind(const plc::Plc& plc, const OrientedSurface& given) {
   std::vector<long> numbers;
   for (const Window& window : find_windows(plc))

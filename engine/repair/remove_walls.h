@@ -7,9 +7,9 @@
 
 namespace ccdt::repair {
 
-/// Removes the facets inside the domain that divide parts around which a surface goes a different number of times:
-/// there, two solids overlap, and what is left is their union. Facets between parts with the same number stay, as
-/// between two solids that touch.
+/// Removes the facets inside the domain that divide parts with different winding numbers: there, two solids overlap,
+/// and their union is left. Facets between parts with the same number stay, such as those between two solids that
+/// touch.
 ///
 /// \param soup    without crossings
 /// \param given   the surface before it was cut at its crossings

@@ -57,15 +57,15 @@ class StepList {
 void join_open_edges(double gap, plc::UncheckedPlc& soup, StepList& steps) {
   const GapCounts gaps = close_gaps(soup, gap);
   steps.add({"merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices});
-  steps.add({"split_edges", "open edges split at vertices beside them", gaps.split_edges});
+  steps.add({"split_edges", "open edges split at nearby vertices", gaps.split_edges});
   steps.add(
-      {"collapsed_facets", "facets removed that had become equal", drop_equal_triangles(soup.triangles, Fins::keep)});
+      {"collapsed_facets", "duplicate facets removed afterward", drop_equal_triangles(soup.triangles, Fins::keep)});
 }
 
 /// \return  was there anything to do?
 bool close_surface(plc::UncheckedPlc& soup, StepList& steps) {
   const std::size_t flaps = remove_flaps(soup);
-  steps.add({"flaps", "facets removed that hung on others and bounded nothing", flaps});
+  steps.add({"flaps", "facets removed because they bounded nothing", flaps});
   orient_shells(soup);
   HoleCounts holes = fill_holes(soup);
   if (flaps == 0 && holes.filled == 0) holes = fill_holes(soup, Rims::all);
@@ -97,7 +97,7 @@ CutCounts cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, b
   return cuts;
 }
 
-/// Turns triangles that face another way than the given ones with the same corners.
+/// Turns triangles that face the opposite way from the given ones with the same corners.
 std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t vertices,
                       std::vector<plc::VertexTriple>& triangles) {
   const FaceMap faces(given, vertices);
@@ -189,12 +189,13 @@ Repaired repair_input(const InputPlc& input, const RepairOptions& options, const
   StepList steps(repaired.steps);
   Soup soup = gather_soup(input, plc_options);
   plc::UncheckedPlc& parts = soup.parts;
-  steps.add({"no_polygons", "facets removed that are no polygons in one plane", soup.no_polygons.size()});
-  steps.add({"bent_facets", "polygons triangulated that are not planar", soup.input.bent.count});
+  steps.add(
+      {"invalid_polygons", "facets removed because they are not polygons in one plane", soup.invalid_polygons.size()});
+  steps.add({"bent_facets", "polygons triangulated because they are not planar", soup.input.warped.count});
   steps.add({"without_area", "facets without area removed", soup.without_area.size()});
   steps.add({"equal_vertices", "vertices merged with one at the same place",
              input.vertices.size() - parts.plc.vertices.size()});
-  steps.add({"duplicates", "facets removed that were there twice", drop_equal_triangles(parts.triangles, Fins::keep)});
+  steps.add({"duplicates", "duplicate facets removed", drop_equal_triangles(parts.triangles, Fins::keep)});
   report(progress, repair_stage, 1, steps_of_repair);
   if (is_surface(input)) {
     join_open_edges(widest_gap(options, parts.plc), parts, steps);

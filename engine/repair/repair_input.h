@@ -11,7 +11,7 @@
 namespace ccdt::repair {
 
 struct RepairOptions {
-  double flatness = usual_flatness;  ///< tolerance for flat facets, as that of the mesher
+  double flatness = usual_flatness;  ///< tolerance for flat facets, as in the mesher
   double gap = 0;  ///< the widest gap to close, in the units of the input; 0: `usual_gap` of the largest extent
 };
 
@@ -30,11 +30,11 @@ struct Repaired {
   std::vector<RepairStep> steps;  ///< those that did something, in their order
 };
 
-/// Repairs an input as far as that is possible without knowing what was meant.
+/// Repairs an input as far as possible without knowing what was meant.
 ///
-/// Facets without area, facets that are no polygons and duplicates go. Of a surface, gaps between open edges are
-/// closed, flaps that bound nothing are removed, holes are filled, and facets turned so that their normals point out of
-/// the domain. Facets that cross are cut at their intersections; where closed surfaces overlap, their union is left.
+/// Removes facets without area, facets that are not polygons, and duplicates. In a surface, it closes gaps between open
+/// edges, removes flaps that bound nothing, fills holes, and turns facets so that their normals point out of the
+/// domain. Facets that cross are cut at their intersections; where closed surfaces overlap, their union is left.
 /// Vertices keep their places, except where gaps are closed or where facets almost touch.
 ///
 /// \throw InputError  coordinates that are not finite; no facet has an area, or none is left

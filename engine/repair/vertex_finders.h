@@ -95,7 +95,7 @@ class NearVertexFinder {
   plc::Plc& plc_;
   double reach_;
   HashTable<IntegerPoint, VertexId, PointTraits> last_in_cell_;
-  std::vector<VertexId> before_;  // of a vertex: the one before it in its cell
+  std::vector<VertexId> before_;  // by vertex: the one before it in its cell
 };
 
 }  // namespace ccdt::repair

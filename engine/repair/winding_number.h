@@ -13,9 +13,9 @@ struct OrientedSurface {
   std::vector<plc::VertexTriple> triangles;
 };
 
-/// How often an oriented surface goes around a point, counterclockwise seen from outside: 1 inside of a closed surface
+/// How often an oriented surface goes around a point, counterclockwise seen from outside: 1 inside a closed surface
 /// whose normals point outward, 0 outside, 2 where two solids overlap. It is a whole number where the surface is
-/// closed, and the share of the view that it covers elsewhere (Jacobson, Kavan, Sorkine-Hornung 2013).
+/// closed; elsewhere it is the share of the view that the surface covers (Jacobson, Kavan, Sorkine-Hornung 2013).
 ///
 /// \param p  not on the surface
 double winding_number(const Point3& p, const OrientedSurface& surface);

@@ -10,7 +10,7 @@
 namespace ccdt::sizes {
 
 /// Target edge lengths given at the vertices of a background: a tetrahedral mesh, or vertices alone. Empty if there is
-/// none.
+/// no background.
 struct BackgroundSizes {
   std::string name;       ///< path as the user gave it
   std::string mesh_name;  ///< path of the file that the vertices come from

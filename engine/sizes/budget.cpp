@@ -11,13 +11,13 @@ class TriangleCounter {
  public:
   TriangleCounter(const SizeField& field, double most) : walk_(field), most_(most) {}
 
-  /// Halves the triangle until its edges have about the length that is wanted in its middle.
+  /// Halves the triangle until its edges have about the length wanted in its middle.
   void add(const Triangle& t) {
     if (count_ > most_) return;
     const auto [a, b, c] = longest_edge_first(t);
     const double size = walk_.at((1.0 / 3) * (a + b + c));
     if (length(b - a) <= most_edges * size) {
-      // Equilateral triangles, but along a needle there is one for each edge.
+      // Counts equilateral triangles, but along a needle one for each edge.
       count_ += std::max(0.5, 2 / std::sqrt(3.0) * length(area_vector(t)) / (size * size));
       return;
     }

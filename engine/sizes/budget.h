@@ -9,19 +9,20 @@
 
 namespace ccdt::sizes {
 
-/// About how many triangles cover the facets if their edges have the lengths of a field of places; any number above
-/// `most` if there are more.
+/// About how many triangles cover the facets if their edges have the lengths of a size field; any number above `most`
+/// if there are more.
 double count_triangles(const plc::Plc& plc, const SizeField& field, double most = HUGE_VAL);
 
-/// How many triangles short edges may add to a surface that has `even` without them: several times as many, or some
-/// thousands if these are few.
+/// How many triangles short edges may add to a surface that has `even` triangles without them: several times as many,
+/// or some thousands if `even` is small.
 inline double affordable_triangles(double even) {
   return std::max(10000.0, 4 * even);
 }
 
-/// The least length, between two, to which shorter ones may be limited; up to a quarter if they differ by 1,000 times.
+/// The least affordable lower limit for lengths, between two given lengths; up to a quarter too large if these differ
+/// by a factor of 1,000.
 ///
-/// \param is_affordable  true for the largest length, and for all that are longer than one for which it is true
+/// \param is_affordable  true for the largest length, and for all lengths above an affordable one
 template <class IsAffordable>
 double least_affordable(double least, double largest, const IsAffordable& is_affordable) {
   if (is_affordable(least)) return least;

@@ -63,7 +63,7 @@ Point3 corner(const Box& box, unsigned i) {
 
 }  // namespace
 
-// The least value is at a corner of the common part, and each of those is on an edge of the one or of the other.
+// The least value is at a corner of the common part, and each such corner is on an edge of one of the two.
 double least_value(const std::array<Point3, 4>& corners, const std::array<double, 4>& values, const Box& box) {
   double least = HUGE_VAL;
   const Barycentric barycentric(corners);
@@ -134,7 +134,7 @@ bool InterpolatedSizes::is_below(const Box& box, double bound) const {
   return !meets && is_below_outside(box, bound);
 }
 
-/// A vertex whose least distance to the box exceeds the greatest distance of another is nearest to no point of the box.
+/// A vertex is nearest to no point of the box if its least distance to the box exceeds another's greatest distance.
 bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
   double farthest = HUGE_VAL;
   const auto distance = [&](const Box& other, double) { return squared_distance(other, box); };

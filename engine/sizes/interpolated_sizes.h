@@ -9,8 +9,8 @@
 
 namespace ccdt::sizes {
 
-/// Sizes that are given at the vertices of a tetrahedral mesh. Within a tetrahedron they are linear; outside of all, a
-/// point has the size of the nearest vertex.
+/// Sizes that are given at the vertices of a tetrahedral mesh. Within a tetrahedron they are linear; outside of all
+/// tetrahedra, a point has the size of the nearest vertex.
 class InterpolatedSizes {
  public:
   /// \param background  must outlive this
@@ -27,7 +27,7 @@ class InterpolatedSizes {
   BoxTree tetrahedra_, vertices_;
 };
 
-/// The least value within both a tetrahedron and a box of the linear function that has the given values at the corners;
+/// The least value, within both a tetrahedron and a box, of the linear function with these values at the corners;
 /// infinite if the two do not meet, or if the tetrahedron is flat. Up to rounding.
 double least_value(const std::array<Point3, 4>& corners, const std::array<double, 4>& values, const Box& box);
 

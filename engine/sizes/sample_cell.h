@@ -11,7 +11,7 @@
 
 namespace ccdt::sizes {
 
-/// The cube that a point is in, in a grid of one facet whose edges are the greatest power of two that is not above a
+/// The cube that contains a point, in a facet's grid. The edges of its cubes are the largest power of two not above a
 /// size.
 struct SampleCell {
   std::array<std::int64_t, 3> place;

@@ -10,7 +10,7 @@
 
 namespace ccdt::sizes {
 
-/// A place in space and the edge length that is wanted there.
+/// A place in space and the edge length wanted there.
 struct SizedPlace {
   Box box;
   double size;
@@ -19,7 +19,7 @@ struct SizedPlace {
 /// The target edge length in space: what lattices, refinement and remeshing ask for.
 class SizeField {
  public:
-  /// The least of `largest` and, over some places, of (size + grading * distance).
+  /// The least of `largest` and, over some places, (size + grading * distance).
   SizeField(double largest, double grading, std::span<const SizedPlace> places);
   /// The least of `largest` and the sizes of a mesh, which are linear within its tetrahedra.
   ///
@@ -35,7 +35,7 @@ class SizeField {
 
   /// The target at a point; only for a field of places.
   ///
-  /// \param bound  is not below the target; the nearer, the faster
+  /// \param bound  an upper bound of the target; the tighter, the faster
   double at(const Point3& p, double bound) const;
   double at(const Point3& p) const { return at(p, largest_); }
 
@@ -45,14 +45,14 @@ class SizeField {
   std::optional<InterpolatedSizes> interpolated_;
 };
 
-/// Asks a field for its targets at points. It is faster if most of them are near the one before.
+/// Asks a field for its targets at points. It is faster if most points are near the one before.
 class SizeWalk {
  public:
   /// \param field  must outlive this
   explicit SizeWalk(const SizeField& field) : field_(field), last_size_(field.largest()) {}
 
   double at(const Point3& p) {
-    // The target grows only with the grading, so the last one limits this one, up to rounding.
+    // The target grows at most with the grading, so the last one bounds this one, up to rounding.
     const double bound = (1 + 1e-12) * (last_size_ + field_.grading() * length(p - last_));
     last_size_ = field_.at(p, bound), last_ = p;
     return last_size_;

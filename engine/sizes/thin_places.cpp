@@ -22,10 +22,10 @@ namespace {
 /// Edges may be this many times as long as a strip or a wall is wide.
 constexpr double of_strip = 1.3, of_wall = 1.2;
 
-/// The tried lengths are halved at most this many times.
+/// The tried length is halved at most this many times.
 constexpr int most_halvings = 14;
 
-/// At most this many pieces of strips, and of walls, are measured for one length. Two solids that nearly touch would
+/// At most this many pieces of strips, and of walls, are measured for one length. Two solids that nearly touch could
 /// need any number of them.
 constexpr std::size_t most_pieces = 200000;
 
@@ -122,8 +122,8 @@ class Strips {
     measure(piece, least, places);
   }
 
-  /// The distance from a point of an edge to the nearest edge or vertex across the facet, but not more than matters.
-  /// Stores what is near in the piece.
+  /// The distance from a point of an edge to the nearest edge or vertex across the facet, capped at the largest that
+  /// matters. Stores in the piece what is near.
   double width_at(const Point3& p, Piece& piece) const {
     const Edges& facet = facets_[piece.facet];
     const FacetEdge& edge = facet.edges[piece.edge];
@@ -167,7 +167,7 @@ void limit_from_below(std::vector<SizedPlace>& places, double least) {
   for (SizedPlace& p : places) p.size = std::max(p.size, least);
 }
 
-/// Of places that have about the same size and are near each other relative to it, only the least.
+/// Keeps only the least of places that have about the same size and are near each other relative to it.
 std::vector<SizedPlace> thinned(const std::vector<SizedPlace>& places) {
   constexpr double nearness = 0.25;
   HashTable<SampleCell, std::uint32_t> number_of_cell;
@@ -183,7 +183,7 @@ std::vector<SizedPlace> thinned(const std::vector<SizedPlace>& places) {
   return least;
 }
 
-/// All places, with those that are too thin to be measured as if they were just thick enough.
+/// All places. Those too thin to be measured are treated as just thick enough.
 std::vector<SizedPlace> measure_thin_places(const plc::Plc& plc, double largest) {
   std::vector<SizedPlace> places;
   Strips strips(plc, largest);

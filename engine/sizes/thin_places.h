@@ -10,11 +10,11 @@ namespace ccdt::sizes {
 ///
 /// Facets and segments that meet do not count as near each other: at a small angle, the length would go to zero.
 ///
-/// Where strips and walls are so thin, or segments so short, that the surface would get far more triangles than edges
-/// of the largest length need, the thinnest count as thicker and the shortest as longer.
+/// If strips and walls are so thin, or segments so short, that the surface would get far more triangles than with edges
+/// of the largest length, then the thinnest count as thicker and the shortest as longer.
 ///
 /// \param largest         in grid units
-/// \param most_triangles  about how many these places may lead to
+/// \param most_triangles  about how many triangles these places may cause
 SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, double most_triangles);
 
 }  // namespace ccdt::sizes

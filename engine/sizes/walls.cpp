@@ -35,7 +35,7 @@ void Walls::measure(double least, std::vector<SizedPlace>& places) {
   std::ranges::fill(met_by_, FacetId());
 }
 
-/// Cuts a triangle into pieces that are not longer than the longest wanted edges, so that their boxes are small.
+/// Cuts a triangle into pieces at most as long as the longest wanted edges, so that their boxes are small.
 void Walls::take_pieces(const Triangle& t, FacetId facet) {
   const auto [a, b, c] = longest_edge_first(t);
   if (length(b - a) <= rules_.largest) {

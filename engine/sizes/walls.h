@@ -17,12 +17,13 @@ namespace ccdt::sizes {
 /// What follows from the distance between two facets. Lengths are in grid units.
 struct WallRules {
   double largest;  ///< edge length where no place needs less
-  /// By facet, above and below it: how long edges may be, as a multiple of the distance to the next facet there; 0: of
-  /// any length.
+  /// By facet, above and below it: how long edges may be, as a multiple of the distance to the next facet there; 0: any
+  /// length.
   std::vector<std::array<double, 2>> ratios;
   double least_size = 0;      ///< no place needs shorter edges
   double least_distance = 0;  ///< thinner places are ignored, because no reasonable number of edges would fit
-  /// Of the angle between a facet and the opposite one. Where it is larger, as in a wedge, the place is not thin.
+  /// Cosine of the largest angle between a facet and the opposite one. Where the angle is larger, as in a wedge, the
+  /// place is not thin.
   double least_cosine = 0;
 };
 

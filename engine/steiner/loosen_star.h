@@ -22,8 +22,8 @@ struct Loosening {
 };
 
 /// Changes the cells around a vertex that cannot be removed from a segment, so that the next attempt meets other cells:
-/// removes edges and faces near it at random, whatever the quality, and then edges of the vertex as long as that is
-/// possible. A vertex with fewer edges is easier to remove.
+/// removes edges and faces near it at random, whatever the quality, and then as many edges of the vertex as possible. A
+/// vertex with fewer edges is easier to remove.
 ///
 /// \param shakes  how many edges and faces to try
 void loosen_star(CellComplex& complex, std::uint32_t vertex, int shakes, Loosening& state);

@@ -55,7 +55,7 @@ class Book {
     scratch.star.gather_star(x, vertex);
   }
 
-  /// Finds the faces around the vertex on each facet. \return false: they are no pages of a book along the segment
+  /// Finds the faces around the vertex on each facet. \return false: if they are not pages of a book along the segment
   bool find_pages() {
     std::vector<FaceAtVertex> faces;
     bool are_all_known = true;
@@ -76,7 +76,7 @@ class Book {
     return are_all_known && used == faces.size();
   }
 
-  /// Plans to move the vertex onto that of its neighbors which leaves better cells, unless faces would cross.
+  /// Plans to move the vertex onto the neighbor that gives better cells, unless faces would cross.
   bool plan_better_collapse(Change& change) {
     Change& other = scratch_.other;
     bool is_planned = plan_collapse(0, change), is_other_planned = plan_collapse(1, other);
@@ -98,7 +98,7 @@ class Book {
  private:
   const std::vector<CellId>& star() const { return scratch_.star.cells(); }
 
-  /// Calls visit(corners, face) for the walls of a cell at the vertex; face is their number, if they are on a facet.
+  /// Calls visit(corners, face) for the walls of a cell at the vertex; face is the wall's number, if it is on a facet.
   template <class Visit>
   void visit_walls(CellId c, const Visit& visit) const {
     const auto& v = x_.cell(c).vertices;
@@ -123,7 +123,7 @@ class Book {
     }
   }
 
-  /// Triangulates the polygon of a page by a fan. \return are all its triangles new, and upright?
+  /// Triangulates the polygon of a page by a fan. \return are all its triangles new and upright?
   bool find_fan(Page& page, std::size_t from) const {
     page.triangles.clear();
     const auto& polygon = page.polygon;
@@ -136,8 +136,7 @@ class Book {
     return true;
   }
 
-  /// In a facet that is flat only within the tolerance, a triangle of the page can be on the hull of the star: then no
-  /// new cell would have it.
+  /// In a nearly flat facet, a triangle of the page can be on the hull of the star: then no new cell would have it.
   bool is_on_hull(const Triangle& t) const {
     return std::ranges::any_of(star(), [&](CellId c) {
       const auto& v = x_.cell(c).vertices;
@@ -145,7 +144,7 @@ class Book {
     });
   }
 
-  /// Plans all but the new cells.
+  /// Plans everything but the new cells.
   void replace_star(Change& change) const {
     for (const Page& page : pages_) {
       for (std::size_t i = 0; i < page.triangles.size(); ++i)

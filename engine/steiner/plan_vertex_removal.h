@@ -10,7 +10,7 @@ namespace ccdt::steiner {
 
 using tets::CellComplex, tets::CellSet, tets::Change;
 
-/// How to remove a vertex, in the order of the effort.
+/// How to remove a vertex, in order of effort.
 enum class RemovalEffort {
   collapse,  ///< move it onto a neighbor on the segment
   fill       ///< search for other tetrahedra in place of those around it

@@ -15,11 +15,11 @@ constexpr std::array all_efforts = {RemovalEffort::collapse, RemovalEffort::fill
 
 /// How often the cells around a vertex are loosened before the next vertex has its turn.
 constexpr int loosenings = 8;
-/// How many edges and faces loosening tries to remove at random. Few are enough for most vertices, so that the first
-/// turn of each is cheap.
+/// How many edges and faces loosening tries to remove at random. A few are enough for most vertices, so the first turn
+/// of each is cheap.
 constexpr int few_shakes = 25, many_shakes = 250;
-/// The turns beyond the first two of each vertex. Nearly all are removed in these two, a few only after dozens, and
-/// some cannot be removed.
+/// The turns beyond the first two of each vertex. Nearly all vertices are removed in the first two turns, a few only
+/// after dozens, and some never.
 constexpr std::size_t more_turns = 100;
 
 /// A Steiner vertex and its neighbors on the segment.
@@ -67,7 +67,7 @@ class SteinerRemover {
     return removed_ > before;
   }
 
-  /// \return was it possible?
+  /// \return was it removed?
   bool remove(Candidate& c, RemovalEffort effort) {
     if (!plan_vertex_removal(x_, c.vertex, c.neighbors, effort, scratch_, change_)) return false;
     x_.apply(change_, made_);
@@ -82,7 +82,7 @@ class SteinerRemover {
     std::ranges::replace(candidates_[of - first_steiner_].neighbors, from, to);
   }
 
-  /// Tries those that are left again and again, after changes of the cells around them.
+  /// Tries the remaining vertices again and again, each time after changing the cells around them.
   void loosen_rest(const Progress& progress) {
     std::vector<std::size_t> left;
     for (std::size_t i = 0; i < candidates_.size(); ++i)
@@ -100,7 +100,7 @@ class SteinerRemover {
     work_done.removal_turns += left.size();
   }
 
-  /// Changes the cells around a vertex until it can be removed. \return was it?
+  /// Changes the cells around a vertex until it can be removed. \return was it removed?
   bool remove_loosened(Candidate& c, int shakes) {
     for (int i = 0; i < loosenings; ++i) {
       loosen_star(x_, c.vertex, shakes, loosening_);

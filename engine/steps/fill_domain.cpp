@@ -34,7 +34,7 @@ front::FrontResult advance_front(const ProtectedDomain& domain, Run& run) {
 
 Tetrahedralization fill_domain(ProtectedDomain& domain, Run& run) {
   auto& [plc, chains, delaunay, facets, codes, first_interior] = domain;
-  count_faces(domain, run.counts);  // only for the report, so it is not the work of a stage
+  count_faces(domain, run.counts);  // only for the report, so it does not count as work of a stage
   if (!run.options.face_protection) std::ranges::fill(codes, delaunay::no_neighbor);
   front::FrontResult front = advance_front(domain, run);
   RawVector<RegionId> regions =

@@ -7,7 +7,7 @@ namespace ccdt::steps {
 
 /// Makes the faces part of the tetrahedralization, and a mesh of the space that they enclose.
 ///
-/// \param domain     keeps only its PLC, chains and number of the first interior vertex
+/// \param domain     keeps only its PLC, its chains, and the number of the first interior vertex
 /// \throw MeshError  the front got stuck, or the tetrahedra do not fill the domain
 Tetrahedralization fill_domain(ProtectedDomain& domain, Run& run);
 

@@ -16,8 +16,8 @@ namespace ccdt::steps {
 namespace {
 
 /// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
-/// tetrahedralization that grows by one vertex at a time, so this one is made by insertion whatever the method is. With
-/// another method, it serves only protection.
+/// tetrahedralization that grows by one vertex at a time, so this one is made by insertion, whatever the method. With
+/// another method, it is used only for protection.
 std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3> points, Run& run) {
   const bool stays = run.options.delaunay != DelaunayMethod::wrap;
   return run.measured(stays ? Stage::delaunay : Stage::protect, [&]() -> std::optional<delaunay::Delaunay> {
@@ -29,7 +29,7 @@ std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3
   });
 }
 
-/// Gives the PLC the vertices of refinement.
+/// Adds the vertices of refinement to the PLC.
 ///
 /// \return  all points: those of the PLC, then those on segments
 std::vector<Point3> refine_surface(TetrahedralizedPlc& result, Run& run) {
@@ -61,7 +61,7 @@ TetrahedralizedPlc make_plc(const InputPlc& input, bool flattens, Run& run) {
   const plc::PlcOptions flat{run.options.flatness};
   const bool refines = run.options.surface == SurfaceRule::refine;
   plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
-  // Refinement adds vertices, and the ranks of all depend on them. So a tetrahedralization would serve only this check.
+  // Refinement adds vertices, and all ranks depend on them. So a tetrahedralization would be used only for this check.
   std::optional<delaunay::Delaunay> delaunay;
   if (!refines) delaunay = tetrahedralize_vertices(gathered.plc.vertices, run);
   static_assert(plc::no_face == delaunay::no_neighbor);

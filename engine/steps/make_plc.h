@@ -15,10 +15,11 @@ struct TetrahedralizedPlc {
   delaunay::Delaunay delaunay = {};
 };
 
-/// Puts an input on the grid, checks it, and refines its surface if that is asked for.
+/// Puts an input on the grid, checks it, and refines its surface if requested.
 ///
-/// \param flattens    before refinement, bent facets are divided into the triangles of the input, so all are exactly
-/// flat \throw InputError  the input is not a valid PLC
+/// \param flattens    before refinement, nearly flat facets are divided into the triangles of the input, so all are
+///                    exactly flat
+/// \throw InputError  the input is not a valid PLC
 TetrahedralizedPlc make_plc(const InputPlc& input, bool flattens, Run& run);
 
 }  // namespace ccdt::steps

@@ -54,15 +54,15 @@ struct MeshOptions {
   double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
   SurfaceRule surface = SurfaceRule::keep;
   double sharp_angle = surface::usual_sharp_angle;  ///< see RemeshOptions
-  double thin_tetrahedra = 2e6;                     ///< at most about these are due to thin places of a refined surface
-  double edge_length = 0;  ///< target edge length in the units of the input; 0: as the surface has it, or, if that
+  double thin_tetrahedra = 2e6;                     ///< about how many thin places of a refined surface may cause
+  double edge_length = 0;  ///< target edge length in the units of the input; 0: that of the surface or, if that
                            ///< is refined, a fortieth of the diagonal of the bounding box. Remeshing needs one
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
   double flatness = usual_flatness;             ///< see PlcOptions
   double sphere_factor = 1;                     ///< see LatticeOptions
   double clearance = lattice::usual_clearance;  ///< see LatticeOptions
   double radius_edge = 2;                       ///< see LatticeOptions
-  unsigned threads = 0;                         ///< that work at the same time; 0: one for each core. Same mesh.
+  unsigned threads = 0;                         ///< how many work at the same time; 0: one per core. Same mesh.
   ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`
   /// A size function, in the units of the input; it replaces the edge lengths of the surface.
   BackgroundSizes background = {};
@@ -76,20 +76,21 @@ struct MeshCounts {
   std::uint64_t faces = 0;             ///< triangles on facets
   std::uint64_t undelaunay_faces = 0;  ///< of those, the ones that are not Delaunay
   std::uint64_t front_tetrahedra = 0;  ///< tetrahedra built by the front
-  /// Steiner vertices on segments, by level from 1: how many splits led to the piece that they split, and one more.
+  /// Steiner vertices on segments, by level from 1: one more than the number of splits that led to the piece they
+  /// split.
   std::vector<std::uint64_t> splits_by_level = {};
   std::uint64_t dropped_interior_vertices = 0;  ///< lattice points that could have destroyed a protected edge
   std::uint64_t core_tetrahedra = 0;            ///< of the Delaunay tetrahedra, those of lattice cores (`core` only)
   std::uint64_t front_faces = 0;  ///< undelaunay faces that the front has met, its own included (paper, section 5.3)
-  std::uint64_t refined_on_segments = 0;       ///< vertices that refinement gave to segments
+  std::uint64_t refined_on_segments = 0;       ///< vertices that refinement added to segments
   std::uint64_t refined_in_facets = 0;         ///< and to facets
-  std::optional<SegmentCounts> segments = {};  ///< only of ccdt
+  std::optional<SegmentCounts> segments = {};  ///< only from ccdt
   ImproveCounts improve = {};
 };
 
-/// The improvement with these options: the given one; by default everything, but nothing if the lattice is `none`,
-/// because the result is then a mesh of the surface alone: with `SteinerRule::keep`, the constrained Delaunay
-/// tetrahedralization of the input.
+/// The improvement with these options: the given one or, by default, everything. But the default is nothing if the
+/// lattice is `none`, because the result is then a mesh of the surface alone: with `SteinerRule::keep`, the constrained
+/// Delaunay tetrahedralization of the input.
 Improvement improvement_of(const MeshOptions& options);
 
 }  // namespace ccdt

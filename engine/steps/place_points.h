@@ -9,7 +9,7 @@
 
 namespace ccdt::steps {
 
-/// Places interior points that keep away from the faces and the segments.
+/// Places interior points away from the faces and the segments.
 ///
 /// \param surface  may get more splits, to make room for points
 /// \return  none if the lattice is `none`

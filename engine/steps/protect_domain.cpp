@@ -24,7 +24,7 @@ void add_vertices(folds::SurfaceProtector& protector, ProtectedDomain& domain, R
   domain.delaunay = add_points(std::move(points), std::move(surface.delaunay), run);
 }
 
-/// Bent facets take the faces that the tetrahedralization has there.
+/// Nearly flat facets take the faces that the tetrahedralization has there.
 void find_faces(ProtectedDomain& domain) {
   auto& [plc, chains, delaunay, facets, codes, first_interior] = domain;
   codes = front::find_facet_faces(plc, facets, delaunay);

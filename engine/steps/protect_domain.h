@@ -10,7 +10,7 @@ namespace ccdt::steps {
 /// vertices.
 ///
 /// \param protector   of the PLC of the domain
-/// \param domain      has its PLC; gets all else
+/// \param domain      has its PLC; gets everything else
 /// \throw LimitError  a segment cannot be protected, or there are too many vertices
 void protect_domain(folds::SurfaceProtector& protector, ProtectedDomain& domain, Run& run);
 

@@ -13,7 +13,7 @@
 
 namespace ccdt::steps {
 
-/// A Delaunay tetrahedralization of all vertices that has a constrained one.
+/// A Delaunay tetrahedralization of all vertices, for which a constrained one exists.
 struct ProtectedDomain {
   plc::Plc plc;
   protection::SegmentChains chains;
@@ -26,7 +26,7 @@ struct ProtectedDomain {
 /// The constrained Delaunay tetrahedralization of an input as a mesh.
 struct Tetrahedralization {
   mesh::TetMesh mesh = {};                        ///< without coordinates
-  LargeVector<delaunay::Cell> cells = {};         ///< its tetrahedra, some of them joined, if they are to be improved
+  LargeVector<delaunay::Cell> cells = {};         ///< its tetrahedra, partly joined, if they will be improved
   std::vector<Point3> points = {};                ///< of the mesh, in grid units
   std::vector<std::uint32_t> facet_of_face = {};  ///< by face of the mesh
 };

@@ -13,7 +13,7 @@ struct Run {
   StageCosts costs = {};
   MeshCounts counts = {};
 
-  /// Runs a part of a step; its costs are those of the stage.
+  /// Runs a part of a step, and adds its cost to that of the stage.
   template <class Part>
   auto measured(Stage stage, const Part& part) {
     const StageScope scope(costs[stage]);

@@ -38,8 +38,8 @@ bool starts_at_longest_edge(const std::array<Point3, 3>& p) {
 
 // May the triangles at an edge be split with the new vertex at a point where the surface has that normal?
 bool may_split(const WorkingMesh& m, EdgeHandle e, const Point3& p, const Point3& normal) {
-  // If longest edges are split, angles stay above half the least one (Rivara 1984), and flips then repair the needles.
-  // Splits of other edges would turn needles into thinner needles forever.
+  // If only longest edges are split, angles stay above half the least angle (Rivara 1984), and flips then repair the
+  // needles. Splitting other edges would turn needles into thinner needles forever.
   constexpr double least_part_at_longest = 0.5;
   double least_part = least_part_at_longest;
   WorstFit before, after;
@@ -77,7 +77,7 @@ void split(WorkingMesh& m, EdgeHandle e, VertexHandle v, ChangedEdges& changed) 
 // Splits an edge at the point of the original surface nearest to its middle. If that is not allowed, the middle itself
 // is tried: it lies on the current surface.
 bool try_split(WorkingMesh& m, EdgeHandle e, ChangedEdges& changed) {
-  constexpr double most_step = 0.25;  // of a new vertex to the original surface, as a fraction of the edge's length
+  constexpr double most_step = 0.25;  // from a new vertex to the original surface, as a fraction of the edge's length
   const auto [a, b] = m.ends(e);
   const std::uint32_t patch = m.at(a).patch;
   const Point3 middle = m.point(a) + 0.5 * (m.point(b) - m.point(a));
@@ -147,7 +147,7 @@ class LongEdgeSplitter {
       for (std::uint32_t l = 0; l < count; ++l) {
         const WorkingMesh::Link& link = m_.links[l];
         if (!link.is_alive || m_.link_length(link) <= too_long * m_.wanted_length(link.ends[0], link.ends[1])) continue;
-        try_unless_in_vain(failed_links_[l], copies_of_link(m_, l), [&] { return try_split_link(m_, l, open_); });
+        try_if_changed(failed_links_[l], copies_of_link(m_, l), [&] { return try_split_link(m_, l, open_); });
       }
     }
   }
@@ -159,17 +159,17 @@ class LongEdgeSplitter {
       open_.clear();
       for (const auto& [negative_length, e] : edges) {
         const bool is_split =
-            try_unless_in_vain(failed_edges_[e.idx()], {e}, [&, edge = e] { return try_split(m_, edge, open_); });
+            try_if_changed(failed_edges_[e.idx()], {e}, [&, edge = e] { return try_split(m_, edge, open_); });
         if (!is_split) open_.push_back(e);
       }
     }
   }
 
  private:
-  // \param corners  those around the edges when they could not be split
+  // \param corners  of the triangles around the edges when they could not be split
   // \return         whether they were split
   template <class Try>
-  bool try_unless_in_vain(std::vector<int>& corners, const std::vector<EdgeHandle>& edges, const Try& run) {
+  bool try_if_changed(std::vector<int>& corners, const std::vector<EdgeHandle>& edges, const Try& run) {
     std::vector<int> now = corners_around(m_, edges);
     if (!now.empty() && corners == now) return false;
     if (run()) return true;
@@ -193,7 +193,7 @@ class LongEdgeSplitter {
   }
 
   WorkingMesh& m_;
-  ChangedEdges open_;  // may be too long: at first all, then those that changed or could not be split
+  ChangedEdges open_;  // edges that may be too long: at first all, then those that changed or could not be split
   std::unordered_map<int, std::vector<int>> failed_edges_, failed_links_;  // the corners around them at that time
 };
 
@@ -208,15 +208,15 @@ struct CollapseAim {
 constexpr CollapseAim no_short_edges = {TriangleMeasure::area, too_long, most_deviation};
 constexpr CollapseAim better_triangles = {TriangleMeasure::angle, 1.3 * too_long, most_deviation_of_improved};
 
-// Is this one of the one or two vertices opposite to the edge of the halfedge?
+// Is this one of the (one or two) vertices opposite the halfedge's edge?
 bool is_apex(const WorkingMesh& m, HalfedgeHandle h, VertexHandle v) {
   for (const HalfedgeHandle side : {h, m.mesh.opposite_halfedge_handle(h)})
     if (!m.mesh.is_boundary(side) && m.corners(side)[2] == v) return true;
   return false;
 }
 
-// Would collapsing the start of the halfedge to its end duplicate edges? The halfedge mesh sees only those of the same
-// wedge.
+// Would collapsing the start of the halfedge to its end duplicate edges? The halfedge mesh sees only duplicates in the
+// same wedge.
 bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t along_link) {
   const auto [from, to] = m.ends(h);
   if (m.at(to).knot == none) return false;
@@ -230,7 +230,7 @@ bool would_join_knots(const WorkingMesh& m, HalfedgeHandle h, std::uint32_t alon
 }
 
 // May there be an edge between n and `to` instead of the one between n and `from`? To improve bad triangles, an edge
-// may be replaced even by one that is no better.
+// may be replaced even by one that is not better.
 bool may_have_edge(const WorkingMesh& m, VertexHandle n, VertexHandle to, VertexHandle from, const CollapseAim& aim) {
   const bool may_be_alike = aim.measure == TriangleMeasure::angle;
   const double size = m.edge_length(n, to);
@@ -280,7 +280,7 @@ bool try_collapse(WorkingMesh& m, HalfedgeHandle h, const CollapseAim& aim) {
 }
 
 // The halfedge to the next knot from each copy of a knot that is not fixed. Nothing if two copies have the same two
-// neighbors along the curve: the collapse would make one edge of theirs.
+// neighbors along the curve: the collapse would merge their edges.
 std::vector<HalfedgeHandle> halfedges_to(const WorkingMesh& m, std::uint32_t next, std::uint32_t knot) {
   std::vector<HalfedgeHandle> halfedges;
   std::vector<std::array<int, 2>> ends;
@@ -409,7 +409,7 @@ int square(int i) {
 }  // namespace
 
 void split_long_edges(WorkingMesh& m) {
-  // A long link may have to wait for longer edges in its triangles, and these for links.
+  // A long link may have to wait for longer edges in its triangles, and these edges for links.
   LongEdgeSplitter splitter(m);
   std::size_t links = 0, edges = 0;
   while (links != m.links.size() || edges != m.mesh.n_edges()) {

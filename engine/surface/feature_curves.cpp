@@ -27,7 +27,7 @@ class Chainer {
       if (result_.is_corner[p]) chain_from(p);
     for (std::uint32_t p = 0; p < surface_.points.size(); ++p) {
       if (features_at_[p].empty() || result_.piece_of[features_at_[p][0]].curve != none) continue;
-      result_.is_corner[p] = 1;  // the only one of its loop
+      result_.is_corner[p] = 1;  // the only corner of its loop
       chain_from(p);
     }
     return std::move(result_);

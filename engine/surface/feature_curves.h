@@ -15,18 +15,18 @@ struct FeatureCurve {
   bool is_segment = false;
   int marker = 0;
 
-  /// The point at an arc length, exactly on the chain where that is parallel to an axis.
+  /// The point at an arc length; exactly on the chain where the chain is parallel to an axis.
   Point3 at(double arc_length) const;
 
   /// The arc length of the bend nearest to a given arc length, if one is within reach; otherwise the given one. A chain
-  /// that runs through its bends does not shrink.
+  /// with vertices at its bends does not shrink.
   double at_bend(double arc_length, double reach) const;
 
   /// The largest distance of the chain, between two arc lengths, from the straight line through its points there.
   double deviation(double from, double to) const;
 };
 
-/// The curve that a feature edge is on, and where.
+/// The curve that a feature edge is on, and where on the curve it is.
 struct CurvePiece {
   std::uint32_t curve;
   std::array<double, 2> arc;  ///< at the ends of the feature, in its order
@@ -38,9 +38,9 @@ struct FeatureCurves {
   std::vector<char> is_corner;       ///< of each point: it must stay where it is
 };
 
-/// Chains the features. A point is a corner if one feature ends at it or more than two do, if its two features turn by
-/// more than the sharp angle or are of different kinds, if one of its wedges does not reach from feature to feature, or
-/// if the input lists it alone. A loop without a corner gets one.
+/// Chains the features. A point is a corner if one feature or more than two end there, if its two features turn by more
+/// than the sharp angle or are of different kinds, if one of its wedges does not reach from feature to feature, or if
+/// the input lists it alone. A loop without a corner gets one.
 FeatureCurves chain_features(const OriginalSurface& surface, double sharp_angle);
 
 }  // namespace ccdt::surface

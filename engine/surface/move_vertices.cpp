@@ -57,7 +57,7 @@ void move_vertex(WorkingMesh& m, VertexHandle v, const Spot& spot) {
   m.at(v).normal = spot.normal;
 }
 
-// The spots of the copies of a knot for a point on its curve.
+// The spots of a knot's copies for a point on its curve.
 std::vector<Spot> spots_at(const WorkingMesh& m, std::uint32_t knot, const Point3& p) {
   std::vector<Spot> spots;
   for (const VertexHandle v : m.knots[knot].copies) {

@@ -22,8 +22,8 @@ constexpr auto names_of(SurfaceRule) {
         "make new triangles of --edge-length on the same flat facets and straight segments"}});
 }
 
-/// At 30 degrees a circle of twelve edges or more counts as round, which is as coarse as CAD programs draw one, and a
-/// chamfer of 45 degrees is still kept.
+/// At 30 degrees, a circle of twelve or more edges counts as round (CAD programs draw none coarser), and a 45-degree
+/// chamfer is still kept.
 inline constexpr double usual_sharp_angle = 30;
 
 struct RemeshOptions {

@@ -18,8 +18,8 @@ namespace ccdt::surface {
 
 namespace {
 
-// At a tip, a triangle turns by more than this from the mean of all, in degrees. Where two triangles meet at an edge
-// that is just not sharp, each turns by half of the sharp angle.
+// At a tip, the normal of a triangle differs from the mean normal by more than this, in degrees. At an edge that is
+// almost sharp, each normal differs from the mean by half of the sharp angle.
 double turn_at_tip(double sharp_angle) {
   constexpr double least = 30;
   return std::max(least, sharp_angle / 2);
@@ -31,8 +31,8 @@ std::uint32_t corner_at(const plc::VertexTriple& corners, std::uint32_t point) {
   return corners[0] == point ? 0 : corners[1] == point ? 1 : 2;
 }
 
-// The segments that the input itself lists, including polygons of two vertices and slits within polygon facets, split
-// at all vertices on them.
+// The segments that the input itself lists, including two-vertex polygons and slits within polygon facets. They are
+// split at all vertices on them.
 plc::SegmentSet declared_segments(const plc::InputPlc& input, const plc::Plc& plc, double tolerance) {
   plc::SegmentSet segments = plc::gather_segments(input, plc);
   plc::TriangleSet ignored;
@@ -41,7 +41,7 @@ plc::SegmentSet declared_segments(const plc::InputPlc& input, const plc::Plc& pl
   return segments;
 }
 
-// For each vertex of the PLC: does the input list it although no facet or segment has it as a corner?
+// For each vertex of the PLC: does the input list it although no facet or segment uses it?
 std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const plc::Plc& plc) {
   std::vector<char> alone(plc.vertices.size(), 0);
   for (const VertexId v : plc.vertex_of_input) alone[v] = 1;
@@ -75,7 +75,7 @@ class SurfaceCutter {
       find_features();
       join_patches();
       join_wedges();
-    } while (split_features_that_do_not_cut());
+    } while (split_uncut_features());
     collect_features();
     measure_normals();
     return std::move(surface_);
@@ -192,9 +192,9 @@ class SurfaceCutter {
     }
   }
 
-  // A feature that is a single edge within a patch does not cut it: both sides have the same wedges at its ends. A
-  // vertex in the middle of the edge has two wedges.
-  bool split_features_that_do_not_cut() {
+  // A feature that is a single edge within a patch does not cut it: both sides have the same wedges at its ends. So it
+  // gets a vertex in the middle, which has two wedges.
+  bool split_uncut_features() {
     std::vector<char> is_split(corners_.size(), 0);
     bool any = false;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
@@ -288,7 +288,7 @@ class SurfaceCutter {
   std::vector<plc::VertexTriple> corners_;
   plc::EdgeTable edges_;
   std::vector<char> is_feature_;
-  std::vector<char> is_turned_;  // by triangle: is its orientation opposite to that of its facet?
+  std::vector<char> is_turned_;  // by triangle: is its orientation opposite to its facet's?
   OriginalSurface surface_;
 };
 

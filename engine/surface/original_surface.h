@@ -22,9 +22,9 @@ struct FeatureEdge {
 
 /// The surface before remeshing, cut along its features.
 ///
-/// A *patch* is a set of triangles that are joined through edges that are not features. All of them are oriented alike.
-/// A *wedge* (Hoppe 1998) is the part of a patch at a point: triangles around the point that are joined through edges
-/// at the point that are not features.
+/// A *patch* is a set of triangles, all oriented alike, that are joined across edges that are not features. A *wedge*
+/// (Hoppe 1998) is a part of a patch at a point: triangles around the point that are joined across non-feature edges at
+/// the point.
 ///
 ///      \ w0 /        two features cross at the point in the middle:
 ///       \  /         four wedges
@@ -35,12 +35,12 @@ struct OriginalSurface {
   std::vector<Point3> points;                           ///< in the units of the input; those of the PLC come first
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< points
   std::vector<std::array<std::uint32_t, 3>> wedges;     ///< of the same corners
-  std::vector<Point3> triangle_normals;                 ///< of length one; of the whole facet where that is flat
+  std::vector<Point3> triangle_normals;                 ///< of length one; the facet's normal where the facet is flat
   std::vector<std::uint32_t> facet_of;                  ///< of each triangle, in the PLC
   std::vector<std::uint32_t> patch_of;                  ///< of each triangle
   std::vector<int> patch_markers;
   std::vector<char> patch_is_flat;
-  std::vector<std::array<bool, 2>> patch_bounds_inside;  ///< does the domain lie above it, where its normals point to,
+  std::vector<std::array<bool, 2>> patch_bounds_inside;  ///< does the domain lie above it, where its normals point,
                                                          ///< and below?
   std::vector<std::uint32_t> wedge_points;
   std::vector<std::uint32_t> wedge_patches;
@@ -55,15 +55,15 @@ struct OriginalSurface {
   }
 };
 
-/// \param plc          of that input, built with the same flatness
-/// \param sharp_angle  see RemeshOptions, as is the flatness
+/// \param plc          of this input, built with the same flatness
+/// \param sharp_angle  see RemeshOptions, as for the flatness
 OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness);
 
 /// A point of the original surface.
 struct Foot {
   std::uint32_t triangle = 0;
   std::array<double, 3> weights{};  ///< of the corners of the triangle; they sum to one
-  Point3 point;                     ///< exactly in the triangle's plane where that is parallel to two axes
+  Point3 point;                     ///< exactly in the triangle's plane where the plane is parallel to two axes
   double squared_distance = 0;
 };
 
@@ -78,7 +78,7 @@ class ClosestPoint {
   /// Is the patch within this distance of a point? Faster than finding the nearest point.
   bool is_within(double distance, std::uint32_t patch, const Point3& p, std::uint32_t near) const;
 
-  /// The normal of the surface at a foot, interpolated from those of the wedges; of length one.
+  /// The normal of the surface at a foot, interpolated from the normals of the wedges; of length one.
   Point3 normal_at(const Foot& foot) const;
 
  private:

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "engine/base/stage_scope.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/edge_length_bounds.h"
+#include "engine/plc/warped_facets.h"
 #include "engine/surface/remesh_surface.h"
 
 namespace ccdt::surface {
@@ -14,7 +14,7 @@ PreparedSurface prepare_surface(const plc::InputPlc& input, SurfaceRule rule, Re
   PreparedSurface surface;
   {
     const StageScope scope(surface.costs[Stage::plc]);
-    surface.changed = plc::triangulate_bent_facets(input);
+    surface.changed = plc::triangulate_warped_facets(input);
   }
   const plc::InputPlc& flat = surface.changed ? *surface.changed : input;
   surface.facets = flat.facet_count();

@@ -28,12 +28,12 @@ using sizes::SizedPlace;
 // Rounds of splits, collapses, flips and relaxation.
 constexpr int rounds_of_all = 8, rounds_near_places = 3;
 
-// If triangles cross, the edges there are halved at most this many times; then the old triangles stay, in a growing
-// neighborhood.
+// If triangles cross, the edge length there is halved at most this many times; then the old triangles stay, in a
+// growing neighborhood.
 constexpr int most_halvings = 8;
 constexpr int most_attempts = 9;
 
-// Edges are halved within this many edge lengths of the place where triangles cross.
+// The edge length is halved within this many edge lengths of the place where triangles cross.
 constexpr double halved_around = 1.6;
 
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
@@ -155,8 +155,8 @@ void remesh(WorkingMesh& m, int rounds, const Progress& progress) {
   report(progress, "remesh", static_cast<std::uint64_t>(rounds), static_cast<std::uint64_t>(rounds));
 }
 
-/// Places, in the units of the surface, where its triangles or segments meet in more than common vertices and edges, or
-/// where a triangle has no area: up to a few thousand, unlike `build_plc`, which stops at the first.
+/// Places, in the units of the surface, where its triangles or segments share more than vertices and edges, or where a
+/// triangle has no area. Finds up to a few thousand, while `build_plc` stops at the first.
 std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness) {
   constexpr std::size_t most_places = 4000;
   plc::Plc plc;
@@ -186,7 +186,7 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
   return places;
 }
 
-/// Places that prevent building the result, and the error message if nothing helps there.
+/// Places where the result cannot be built, and the error message if nothing helps there.
 struct Defects {
   std::vector<Point3> places;
   std::string words;

@@ -10,18 +10,18 @@ namespace ccdt::surface {
 /// splits, collapses, flips and tangential relaxation, each projected back to the original surface (Botsch and Kobbelt,
 /// "A remeshing approach to multiresolution modeling", 2004).
 ///
-/// The following keep their shape: sharp edges, edges where one facet ends or more than two meet, borders between
-/// facets of different markers, and the segments of the input. All of these get new vertices along themselves. Their
-/// corners, and the vertices that the input lists without using them, stay as points. Flat patches stay flat. Facet
-/// markers, segments with their markers, holes and regions are preserved.
+/// The following keep their shape: sharp edges, edges with one facet or more than two, borders between facets of
+/// different markers, and the segments of the input. All of these get new vertices along themselves. Their corners, and
+/// the vertices that the input lists without using them, stay as points. Flat patches stay flat. Facet markers,
+/// segments with their markers, holes and regions are preserved.
 ///
 /// No triangle is turned over or made worse than a limit. Edges are shorter where features are short or near each
 /// other, where the surface is curved, and where another sheet is opposite, through the solid or a gap. They grow
-/// gently from there, so that neither needles nor flat tetrahedra are needed. All these short edges cost at most about
-/// four times the triangles of the given edge length, or 10,000 if these are few; beyond that, the shortest become
-/// longer. At the end, the worst triangles are improved one by one: angles below 30 degrees remain only at sharp
-/// corners and where the surface is rough. If triangles of the result still cross, the edges there become shorter. If
-/// that does not help, the old triangles stay there. The result always builds (`build_plc`).
+/// gently from there, so that neither needles nor flat tetrahedra are needed. All these short edges make at most about
+/// four times as many triangles as the given edge length alone would, or 10,000 if that is more; beyond that, the
+/// shortest become longer. At the end, the worst triangles are improved one by one: angles below 30 degrees remain only
+/// at sharp corners and where the surface is rough. If triangles of the result still cross, the edges there become
+/// shorter. If that does not help, the old triangles stay there. The result always builds (`build_plc`).
 ///
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is not a valid PLC, or an option is out of range

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double shortening = 0.9;  // from one tried length to the next
 
-// The longest edge at a point of a curve that stays near to it. An edge as long as a piece of the chain is always
+// The longest edge at a point of a curve that stays near the curve. An edge as long as a piece of the chain is always
 // allowed: each bend may get a vertex.
 double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
   const double whole = curve.arc.back();
@@ -33,12 +33,12 @@ double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
 constexpr double most_ratio = 2;       // of the wanted length to the shortest edge of a vertex
 constexpr double most_turn = 0.42;     // radians, of the normals along an edge
 constexpr double width_ratio = 1.15;   // of edges along a strip to its width: equilateral triangles fill it
-constexpr double least_width = 0.002;  // of the usual length: narrower strips fit no allowed edge
-constexpr double least_wall = 0.01;    // of the usual length: no reasonable number of edges fits thinner walls
+constexpr double least_width = 0.002;  // of the usual length: no allowed edge fits narrower strips
+constexpr double least_wall = 0.01;    // of the usual length: thinner walls would need too many edges
 constexpr double narrow_wedge = 0.5;   // its width over the distance from its tip
 
-// None of these makes edges shorter than this fraction of the usual length: slits may be arbitrarily narrow, and noise
-// has bends too.
+// None of these rules makes edges shorter than this fraction of the usual length: slits may be arbitrarily narrow, and
+// noise bends surfaces too.
 constexpr double least_by_curve = 0.02, least_by_width = 0.05, least_by_wall = 0.15, least_by_edge = 0.2,
                  least_by_turn = 0.3;
 
@@ -64,7 +64,7 @@ void limit_by_edges(WorkingMesh& m) {
   }
 }
 
-// Is there a corner that is at, or next to, each of two knots? Then the space between them is not a strip.
+// Is some corner at, or next to, each of the two knots? Then the space between them is not a strip.
 bool share_a_corner(const WorkingMesh& m, std::uint32_t a, std::uint32_t b) {
   const auto is_corner_near = [&](std::uint32_t corner, std::uint32_t k) {
     return m.knots[corner].is_fixed && (corner == k || link_between(m, corner, k) != none);
@@ -105,8 +105,8 @@ void limit_by_width(WorkingMesh& m) {
   }
 }
 
-/// The number of equilateral triangles of the wanted lengths, if none was below `least` except where the given length
-/// is.
+/// The number of equilateral triangles of the wanted lengths, if these were at least `least`, except where the given
+/// length is less.
 double count_triangles(const WorkingMesh& m, double least) {
   double count = 0;
   for (const FaceHandle f : m.mesh.faces()) {
@@ -118,7 +118,7 @@ double count_triangles(const WorkingMesh& m, double least) {
   return count;
 }
 
-/// Makes the shortest wanted lengths longer until features cost no more triangles than they may.
+/// Makes the shortest wanted lengths longer until features do not cost too many triangles.
 void limit_count(WorkingMesh& m) {
   const double usual = m.lengths.largest();
   const double even = count_triangles(m, usual), most = even + sizes::affordable_triangles(even);
@@ -133,20 +133,22 @@ void limit_count(WorkingMesh& m) {
   for (WorkingMesh::Knot& k : m.knots) raise(k.wanted, k.position);
 }
 
-/// The places where a solid, or a gap between bent sheets, is thin.
+/// The places where a solid, or a gap between curved sheets, is thin.
 std::vector<sizes::SizedPlace> find_walls(const plc::Plc& plc, const OriginalSurface& surface, double usual) {
   // Edges at a gap are chords and must not cross.
   constexpr double of_solid = 2, of_gap = 4;
-  // A wedge that opens faster than edges may grow (`length_growth`) is not a thin place: the sine of that slope's angle
-  // is 0.287.
+  // A wedge that opens faster than edges may grow (`length_growth`) is not a thin place: the sine of the angle of that
+  // slope is 0.287.
   constexpr double least_cosine = 0.958;
   const double unit = plc.grid.unit;
-  std::vector<bool> is_bent(plc.facets.size());
+  std::vector<bool> is_curved(plc.facets.size());
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-    is_bent[surface.facet_of[t]] = surface.patch_is_flat[surface.patch_of[t]] == 0;
+    is_curved[surface.facet_of[t]] = surface.patch_is_flat[surface.patch_of[t]] == 0;
   sizes::WallRules rules{usual / unit, {}, least_by_wall * usual / unit, least_wall * usual / unit, least_cosine};
   for (std::size_t f = 0; f < plc.facets.size(); ++f) {
-    const auto ratio = [&](RegionId beside) { return plc.regions[beside].inside ? of_solid : is_bent[f] ? of_gap : 0; };
+    const auto ratio = [&](RegionId beside) {
+      return plc.regions[beside].inside ? of_solid : is_curved[f] ? of_gap : 0;
+    };
     rules.ratios.push_back({ratio(plc.facets[f].above), ratio(plc.facets[f].below)});
   }
   sizes::Walls walls(plc, std::move(rules));

@@ -16,11 +16,11 @@ inline constexpr double most_deviation = 0.044;
 /// The same for the edges that improve bad triangles: a circle keeps fifteen edges.
 inline constexpr double most_deviation_of_improved = 0.055;
 
-/// The edge lengths that the shape of a surface allows: short curves between corners stay single edges, bent curves
-/// need edges that stay near them (`most_deviation`), and edges fit the thickness of solids and of gaps between bent
+/// The edge lengths that the shape of a surface allows: short curves between corners stay single edges, long ones
+/// need edges that stay near them (`most_deviation`), and edges fit the thickness of solids and of gaps between curved
 /// sheets.
 ///
-/// \param plc    of which the surface was cut
+/// \param plc    that the surface was cut from
 /// \param usual  the edge length wanted where the shape does not need less
 sizes::SizeField lengths_of_shape(const plc::Plc& plc, const OriginalSurface& surface, const FeatureCurves& features,
                                   double usual);

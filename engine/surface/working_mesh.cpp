@@ -9,7 +9,7 @@
 namespace ccdt::surface {
 namespace {
 
-// Adds the knots. Returns that of each point; `none` for points inside one patch that may move.
+// Adds the knots. Returns the knot of each point; `none` for points inside one patch that may move.
 std::vector<std::uint32_t> add_knots(WorkingMesh& m) {
   const OriginalSurface& original = m.original;
   std::vector<char> has_feature(original.points.size(), 0);
@@ -148,7 +148,7 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input) {
   plc.inside = input.inside;
   plc.holes = input.holes;
   plc.regions = input.regions;
-  plc.bent = input.bent;
+  plc.warped = input.warped;
   std::vector<std::uint32_t> of_knot(m.knots.size(), none), of_vertex(m.vertices.size(), none);
   const auto add = [&](const Point3& p) {
     plc.vertices.push_back(p);

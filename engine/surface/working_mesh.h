@@ -23,7 +23,7 @@ enum class TriangleMeasure { area, angle };
 /// The shape of a triangle, and how well it represents the original surface at its corners.
 struct TriangleFit {
   double quality;    ///< 1 for the equilateral triangle, 0 for a degenerate one
-  double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners but tips
+  double agreement;  ///< the smallest cosine between its normal and the original surface's at its corners, except tips
 };
 
 /// The cosine of a triangle's smallest angle.
@@ -66,20 +66,20 @@ struct WorstFit {
   }
 };
 
-/// Do triangles of the fit `after` represent the original surface as well as those of the fit `before`, or well enough?
+/// Do triangles of fit `after` represent the original surface as well as those of fit `before`, or well enough?
 inline bool may_stand_for(const TriangleFit& before, const TriangleFit& after) {
   constexpr double good_agreement = 0.65;  // 50 degrees: an equilateral triangle on a circle's hexagon has 40
   constexpr double least_agreement = 0.2;
   return after.agreement >= std::max(least_agreement, std::min(good_agreement, before.agreement));
 }
 
-/// May triangles of the fit `after` replace those of the fit `before`? They must be good, or not worse; but they must
-/// never be turned away from the original surface.
+/// May triangles of fit `after` replace those of fit `before`? They must be good, or not worse, and they must never be
+/// turned away from the original surface.
 inline bool may_replace(const TriangleFit& before, const TriangleFit& after, double good_quality) {
   return after.quality >= std::min(good_quality, before.quality) && may_stand_for(before, after);
 }
 
-/// Is the worst triangle really better after a change? Gains by rounding would continue forever.
+/// Is the worst triangle really better after a change? With mere rounding gains, changes would go on forever.
 inline bool is_better(const TriangleFit& before, const TriangleFit& after) {
   constexpr double least_gain = 0.005;
   return after.quality >= before.quality + least_gain && may_stand_for(before, after);
@@ -100,18 +100,18 @@ using FaceHandle = HalfedgeMesh::FaceHandle;
 
 /// The surface during remeshing.
 ///
-/// All patches are in one halfedge mesh, which can only hold manifolds: they are cut from each other along the
-/// features, and every patch (every wedge, where one patch is there several times) has a copy of its own of the
-/// vertices there. So an edge of the halfedge mesh is a boundary edge exactly if it lies on a feature. The copies are
-/// tied together by *knots*: a knot is a vertex on a feature, or any other vertex that has several copies or must not
-/// move. Knots are joined by links, the edges along the features, which may have any number of copies, even none if a
-/// segment is in no facet.
+/// All patches are in one halfedge mesh. Since it can hold only manifolds, patches are cut from each other along the
+/// features. Each patch has its own copy of a vertex there, or several copies if it has several wedges at the vertex.
+/// So an edge of the halfedge mesh is a boundary edge exactly if it lies on a feature. The copies are tied together by
+/// *knots*: a knot is a vertex on a feature, or any other vertex that has several copies or must not move. Knots are
+/// joined by links, the edges along the features, which may have any number of copies, or none if a segment is in no
+/// facet.
 struct WorkingMesh {
   /// The data of a vertex of the halfedge mesh.
   struct Vertex {
     std::uint32_t knot = none;
     std::uint32_t patch = none;
-    std::uint32_t near = none;  ///< a triangle of the original surface near to it
+    std::uint32_t near = none;  ///< a triangle of the original surface near it
     Point3 normal;              ///< of the original surface, in its patch; of length one, or zero at a tip
     double wanted = 0;          ///< length of edges there
     bool is_frozen = false;     ///< a corner of a frozen face
@@ -140,12 +140,12 @@ struct WorkingMesh {
   const OriginalSurface& original;
   const FeatureCurves& features;
   const ClosestPoint& closest;
-  const sizes::SizeField& lengths;  ///< the length of the options, except where triangles have crossed
+  const sizes::SizeField& lengths;  ///< the given edge length, except where triangles have crossed
   const sizes::SizeField& shape;    ///< `lengths_of_shape`
 
   HalfedgeMesh mesh;
-  std::vector<Vertex> vertices;      ///< by the index of the mesh's
-  std::vector<char> face_is_frozen;  ///< by the index of the mesh's: keeps its shape
+  std::vector<Vertex> vertices;      ///< by the index in the mesh
+  std::vector<char> face_is_frozen;  ///< by the index in the mesh: keeps its shape
   std::vector<Knot> knots;
   std::vector<Link> links;
 
@@ -182,12 +182,12 @@ struct WorkingMesh {
   double link_length(const Link& l) const { return length(knots[l.ends[1]].position - knots[l.ends[0]].position); }
 };
 
-/// \param frozen  by triangle of the original surface: must stay as it is
+/// \param frozen  by triangle of the original surface: must it stay as it is?
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
                               const ClosestPoint& closest, const sizes::SizeField& lengths,
                               const sizes::SizeField& shape, const std::vector<char>& frozen);
 
-/// A new vertex of the halfedge mesh in a patch, at the foot of the given point or, on a knot, at its position.
+/// A new vertex of the halfedge mesh in a patch: at the given foot, or a copy of a knot, at its position.
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);
 VertexHandle add_copy(WorkingMesh& m, std::uint32_t patch, std::uint32_t knot, std::uint32_t near);
 
@@ -211,8 +211,8 @@ struct KnotOnCurve {
 
 KnotOnCurve on_curve(const WorkingMesh& m, std::uint32_t knot);
 
-/// Could an edge between two vertices of a patch lie within the bound, judging by the normals at its ends? An arc of
-/// half the angle a has a sagitta of tan(a/2)/2 of its chord, and its ends turn by a away from the chord.
+/// Judging by the normals at its ends, could an edge between two vertices of a patch lie within the bound? An arc with
+/// half-angle a has a sagitta of tan(a/2)/2 times its chord, and its ends turn by a away from the chord.
 bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b);
 
 /// Is the middle of an edge between two vertices of a patch, or between one and a possible position of another, within
@@ -235,9 +235,9 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input);
 /// limit, or merge two edges.
 /// @{
 
-/// Gives every vertex and knot the wanted edge length (`lengths` and `shape`), but less around edges that are much
-/// shorter and could not be collapsed, because the surface is too narrow or too strongly curved there: long edges
-/// beside them would turn the triangles into needles. Short edges at features cost a limited number of triangles.
+/// Gives every vertex and knot the wanted edge length (`lengths` and `shape`), but less around much shorter edges that
+/// could not be collapsed because the surface is too narrow or too strongly curved there: longer edges beside these
+/// would turn the triangles into needles. Short edges at features cost a limited number of triangles.
 ///
 /// \param is_remeshed  false for the original mesh: its short edges and narrow strips do not count yet
 void find_wanted_lengths(WorkingMesh& m, bool is_remeshed);
@@ -245,7 +245,7 @@ void find_wanted_lengths(WorkingMesh& m, bool is_remeshed);
 /// Splits edges longer than 4/3 of the wanted length, until there are none; new vertices lie on the original surface.
 void split_long_edges(WorkingMesh& m);
 
-/// Collapses edges shorter than 4/5 of the wanted length, where that makes no edge longer than 4/3 of it.
+/// Collapses edges shorter than 4/5 of the wanted length, unless this makes an edge longer than 4/3 of it.
 void collapse_short_edges(WorkingMesh& m);
 
 /// Flips edges so that vertices approach their ideal number of neighbors: six, or fewer on a feature, depending on the
@@ -259,7 +259,7 @@ void flip_edges_for_quality(WorkingMesh& m);
 void relax_vertices(WorkingMesh& m);
 /// @}
 
-/// \name Changes around bad triangles: each is made if it increases the smallest angle of all affected triangles.
+/// \name Changes around bad triangles: each is made only if it increases the smallest angle of all affected triangles.
 /// \return whether it was made
 /// @{
 bool improve_by_flip(WorkingMesh& m, EdgeHandle e);

@@ -65,7 +65,7 @@ CellComplex::CellComplex(std::vector<Triangle> faces, std::span<const std::array
       generations_(cells_.size()),
       faces_(std::move(faces)),
       facet_of_face_(std::move(facet_of_face)) {
-  // Few vertices will be inserted. Without room for them, the first one would double the list.
+  // Only a few vertices will be inserted, but without room for them, the first one would double the list.
   points_.reserve(points_.size() + points_.size() / 64);
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
     std::fill(walls_.data() + begin, walls_.data() + end, std::uint8_t{0});
@@ -101,7 +101,7 @@ void CellComplex::find_facet_axes() {
 /// Gives each vertex the last of its cells.
 void CellComplex::find_last_cells() {
   parallel_ranges(cells_.size(), grain, [&](std::size_t begin, std::size_t end) {
-    // Backwards, so that most vertices get their last cell at once.
+    // Backward, so that most vertices get their last cell at once.
     for (std::size_t i = end; i-- > begin;) {
       const CellId c(i);
       for (const std::uint32_t v : cells_[c].vertices) {
@@ -126,7 +126,7 @@ void CellComplex::set_wall(std::uint32_t code) {
   walls_[cell_of(code)] |= static_cast<std::uint8_t>(1u << face_of(code));
 }
 
-/// Joins the cells on both sides of each face where the neighbors are missing. What is left is on the boundary.
+/// Joins the cells on both sides of each face where neighbors are missing. The remaining faces are on the boundary.
 void CellComplex::join_open_faces() {
   auto open = parallel_collect<OpenCellFace>(
       cells_.size(), grain, [&](std::size_t begin, std::size_t end, std::vector<OpenCellFace>& found) {
@@ -140,7 +140,7 @@ void CellComplex::join_open_faces() {
     if (open[i - 1].key == open[i].key) join_faces(cells_, open[i - 1].code, open[i].code);
 }
 
-/// Marks the faces on facets. Interior vertices are on none.
+/// Marks the faces on facets. Interior vertices are not on facets.
 void CellComplex::find_walls() {
   parallel_for(cells_.size(), grain, [&](std::size_t i) {
     const CellId c(i);
@@ -172,7 +172,7 @@ std::size_t CellComplex::bytes() const {
 
 void CellComplex::find_cavity(const Change& change, Cavity& cavity) const {
   cavity.faces.clear(), cavity.lost_vertices.clear();
-  // The old and new cells are few: comparing with all of them costs less than marks in another array.
+  // There are only a few old and new cells: comparing with all of them costs less than marks in another array.
   const auto stays = [&](std::uint32_t v) {
     return std::ranges::any_of(change.new_cells, [&](const NewCell& cell) { return has(cell.vertices, v); });
   };
@@ -207,7 +207,7 @@ CellId CellComplex::take_place() {
   return place;
 }
 
-/// Joins a face of a new cell to the one that waits for it, or lets it wait.
+/// Joins a face of a new cell to the face that waits for it, or lets it wait.
 void CellComplex::connect(std::uint32_t code, const std::vector<FaceChange>& new_walls,
                           std::vector<Cavity::Face>& open) {
   const FaceKey key = key_of_face(cells_[cell_of(code)].vertices, face_of(code));
@@ -307,7 +307,7 @@ void CellComplex::move_vertex(std::uint32_t v, const Point3& place, std::span<co
 }
 
 std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
-  // The tetrahedra get the memory of what is no longer needed.
+  // The tetrahedra get the memory of arrays that are no longer needed.
   release(qualities_), release(generations_), release(walls_), release(changed_at_), release(facet_of_face_);
   release(face_table_), release(segments_), face_tree_.reset();
   std::vector<std::uint32_t> number(points_.size());
@@ -327,7 +327,7 @@ std::vector<Point3> CellComplex::take_mesh(mesh::TetMesh& mesh) && {
         return count;
       },
       [&](std::size_t count) {
-        // By this thread, which gets the memory that it gave back.
+        // On this thread, which gets back the memory that it released.
         parallel_both([&] { mesh.tetrahedra.resize(count), mesh.regions.resize(regions_.empty() ? 0 : count); },
                       number_vertices);
       },

@@ -45,7 +45,7 @@ struct NewCell {
 /// A face on a facet gets other corners, or is no longer needed.
 struct FaceChange {
   std::uint32_t face;  ///< its number
-  Triangle corners;    ///< the new ones, in the orientation of the facet; none: `no_corners`
+  Triangle corners;    ///< the new ones, in the orientation of the facet; `no_corners` for none
 };
 inline constexpr Triangle no_corners = {ghost_vertex, ghost_vertex, ghost_vertex};
 
@@ -62,7 +62,7 @@ struct Change {
   std::vector<FaceChange> faces;     ///< on facets; together they cover the same parts of the same facets
   std::optional<Point3> new_vertex;  ///< its id is the number of vertices before the change
   std::optional<SegmentMerge> merge;
-  /// Around the space outside that its new faces take, or would have taken if no face were in the way.
+  /// Encloses the space outside that its new faces take, or would have taken if no face were in the way.
   Box space_taken = empty_box;
 
   void clear();
@@ -75,25 +75,25 @@ struct Cavity {
   /// A face that waits for the cell on its other side.
   struct Face {
     FaceKey key;
-    std::uint32_t code;  ///< of the existing cell; `no_neighbor`: none, the face is on the boundary
+    std::uint32_t code;  ///< of the existing cell; `no_neighbor` if the face is on the boundary
     bool is_wall;
   };
 
   std::vector<Face> faces;
-  std::vector<std::uint32_t> lost_vertices;  ///< of old cells, but of no new one
+  std::vector<std::uint32_t> lost_vertices;  ///< of old cells, but not of new ones
 };
 
 /// A tetrahedral mesh that can be changed: cells know their neighbors, and which of their faces and edges must stay.
 ///
 /// As in the Delaunay tetrahedralization, but without ghosts: the code of a missing neighbor is `no_neighbor`. A *wall*
-/// is a face on a facet, of the boundary or inside. Vertices below the first interior one are of the PLC or Steiner
-/// vertices on its segments and facets; *interior* vertices may move anywhere or be removed.
+/// is a face on a facet, on the boundary or inside. Vertices below the first interior one are vertices of the PLC, or
+/// Steiner vertices on its segments and facets; *interior* vertices may move anywhere or be removed.
 class CellComplex {
  public:
   /// \param faces           of the mesh, on its facets
   /// \param edges           of the mesh, on its segments
   /// \param cells           the tetrahedra; neighbors may be missing
-  /// \param regions         the attribute of the region of each; empty: all are in one region
+  /// \param regions         the region attribute of each cell; empty if all are in one region
   /// \param points          the vertices of the mesh in grid units
   /// \param facet_of_face   the facet of each of the faces: edges between faces of one facet may be exchanged
   /// \param first_interior  the least interior vertex
@@ -108,7 +108,7 @@ class CellComplex {
   const Point3& point(std::uint32_t v) const { return points_[v]; }
   bool is_interior(std::uint32_t v) const { return v >= first_interior_; }
   bool is_removed(std::uint32_t v) const {
-    // One of the PLC that is outside of the domain never had a cell.
+    // A vertex of the PLC outside the domain never had a cell.
     return is_interior(v) ? cell_at_[v].is_none() : merged_[v];
   }
   /// A cell with the vertex; none if the vertex was removed.
@@ -130,9 +130,9 @@ class CellComplex {
     const auto& all = cells_[c].vertices;
     return all[0] == v ? 0 : all[1] == v ? 1 : all[2] == v ? 2 : 3;
   }
-  /// The face of a code, as the cell on its other side calls it.
+  /// The code of the same face in the cell on its other side.
   std::uint32_t across(std::uint32_t code) const { return cells_[cell_of(code)].neighbors[face_of(code)]; }
-  /// The vertex opposite to the face in its cell.
+  /// The vertex opposite the face in its cell.
   std::uint32_t apex_of(std::uint32_t code) const { return cells_[cell_of(code)].vertices[face_of(code)]; }
   /// The corners of the face, its cell above.
   Triangle corners_of(std::uint32_t code) const {
@@ -177,7 +177,8 @@ class CellComplex {
   double quality_of(const std::array<std::uint32_t, 4>& v) const {
     return cell_quality(goal_, points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
   }
-  /// Exactly: are all new cells positive? With the same hull as the old ones they then fill the same space, once.
+  /// Are all new cells positive? Exact. If so, and if they have the same hull as the old ones, they fill the same space
+  /// once.
   bool all_positive(const Change& change) const;
 
   /// Bytes of its data by vertex, by cell and by face.
@@ -188,27 +189,28 @@ class CellComplex {
   void apply(Change& change, std::vector<CellId>& made);
 
   // The parts of `apply`. Several cavities can be found at the same time. Changes are announced in order. Several
-  // announced ones can be made at the same time if they leave the surface alone and no two cavities have a common face.
+  // announced changes can be made at the same time if they leave the surface alone and no two cavities have a common
+  // face.
 
   void find_cavity(const Change& change, Cavity& cavity) const;
-  /// Chooses places for the new cells, and notes the change at its vertices. The new vertex gets its number: another
-  /// one than planned if vertices have been inserted since.
+  /// Chooses places for the new cells, and notes the change at its vertices. The new vertex gets its number: not the
+  /// planned one if vertices have been inserted since.
   void announce(Change& change, const Cavity& cavity, std::vector<CellId>& places);
   /// \param cavity  is used up
   void fill_cavity(const Change& change, std::span<const CellId> places, Cavity& cavity);
-  /// May a later change than this one have replaced the cell beyond a face of the cavity?
+  /// May a change after this one have replaced the cell beyond a face of the cavity?
   bool has_changed_beyond(const Cavity& cavity, std::uint64_t since) const;
 
-  // The parts of a move. Several announced ones can be made at the same time if no two stars have a common cell.
+  // The parts of a move. Several announced moves can be made at the same time if no two stars have a common cell.
 
-  /// Notes the change at the vertices of `star`, the cells around a vertex, and that the faces around one that is not
-  /// interior will be where it moves to.
+  /// Notes the change at the vertices of `star`, the cells around a vertex. If the vertex is not interior, also notes
+  /// where the faces around it will be.
   void announce_move(std::uint32_t v, const Point3& place, std::span<const CellId> star);
   /// Moves a vertex to a position where all cells around it, `star`, are positive.
   void move_vertex(std::uint32_t v, const Point3& place, std::span<const CellId> star);
 
   /// Writes the result back to the mesh that the complex was made of: tetrahedra, regions, and faces. The edges on
-  /// segments get the new numbers of their vertices. What was removed leaves no gaps.
+  /// segments get the new numbers of their vertices. Removed items leave no gaps.
   ///
   /// \param mesh  still has the markers of all faces and the edges
   /// \return the vertices of the mesh, in grid units
@@ -233,7 +235,7 @@ class CellComplex {
   std::uint32_t first_interior_ = 0;
   std::vector<CellId> cell_at_;
   std::vector<std::uint64_t> changed_at_;
-  std::vector<bool> merged_;  // below the first interior one: removed from its segment
+  std::vector<bool> merged_;  // for vertices below the first interior one: removed from its segment
 
   // By cell.
   LargeVector<Cell> cells_;

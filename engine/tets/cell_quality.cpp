@@ -22,7 +22,7 @@ CCDT_ALWAYS_INLINE double inverse_r_from(const Point3& u, const Point3& v, const
 CCDT_ALWAYS_INLINE double least_sine_from(const Point3& u, const Point3& v, const Point3& w) {
   const Point3 vw = cross(w, v), wu = cross(u, w), uv = cross(v, u);
   const double det = dot(u, vw);
-  // Squares of twice the areas of the faces opposite to a, b, c, d, inverted.
+  // Inverted squares of twice the areas of the faces opposite a, b, c, d.
   const double fa = 1 / squared_length(vw), fb = 1 / squared_length(wu), fc = 1 / squared_length(uv);
   const double fd = 1 / squared_length(vw + wu + uv);
   const auto smaller = [](double a, double b) { return b < a ? b : a; };
@@ -41,7 +41,7 @@ struct Edges {
   std::array<double, lanes> ux, uy, uz, vx, vy, vz, wx, wy, wz;
 };
 
-/// Without branches. A tetrahedron below the least shape has its shape as its quality.
+/// Without branches. For a tetrahedron with a shape below the least shape, the quality is this shape.
 CCDT_WIDE_LANES void measure(const Edges& e, double least_shape, double offset, std::array<double, lanes>& qualities) {
   for (std::size_t i = 0; i < lanes; ++i) {
     const Point3 u{e.ux[i], e.uy[i], e.uz[i]}, v{e.vx[i], e.vy[i], e.vz[i]}, w{e.wx[i], e.wy[i], e.wz[i]};

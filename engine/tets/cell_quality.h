@@ -17,32 +17,32 @@ struct QualityGoal {
   double sine = 0.34;
 
   bool is_of_r() const { return objective == Objective::r; }
-  /// What is added to sines: for `Objective::r`, they are above all values of 1 / r that have not reached the goal.
+  /// What is added to sines: for `Objective::r`, it puts them above all values of 1 / r that have not reached the goal.
   double offset() const { return is_of_r() ? 1 : 0; }
   /// The quality to reach first.
   double first() const { return is_of_r() ? inverse_r : sine; }
-  /// The quality from which a tetrahedron is good enough.
+  /// A tetrahedron of at least this quality is good enough.
   double good() const { return offset() + sine; }
 };
 
-/// 1 / r of a tetrahedron of this determinant and mean square of its edges.
+/// 1 / r of a tetrahedron with this determinant and mean squared edge length.
 inline double inverse_r_of(double det, double mean) {
   return std::numbers::sqrt2 * det / (mean * std::sqrt(mean));
 }
 
-/// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m the mean square of the six edges. The apex d
-/// is above abc in a positive tetrahedron.
+/// 1 / r = sqrt(2) det / m^(3/2), where det is six times the volume and m is the mean squared length of the six edges.
+/// The apex d is above abc in a positive tetrahedron.
 double inverse_r(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// The sine of the dihedral angle at an edge of length l between faces of areas A and B in a tetrahedron of volume V is
 /// 3 V l / (2 A B).
 double least_sine(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
-/// The quality of a tetrahedron by the objective: greater is better, and 0 or less is flat or inverted. That of a set
-/// of tetrahedra is that of its worst.
+/// The quality of a tetrahedron by the objective: greater is better, and 0 or less means flat or inverted. The quality
+/// of a set of tetrahedra is that of its worst.
 ///
 /// For `Objective::r` it is 1 / r up to the goal; from there on, it is 1 plus the least sine of the dihedral angles: r
-/// comes first, angles decide where r is good.
+/// comes first, and angles decide where r is good.
 double cell_quality(const QualityGoal& goal, const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
 /// The qualities of many cells, bit for bit those of `cell_quality`.

@@ -10,8 +10,8 @@
 
 namespace ccdt::tets {
 
-/// Cells in the order in which they joined: a star, a cavity or a polyhedron. Its *hull* are the faces between it and
-/// all other space. Reuse the object: it keeps its memory.
+/// Cells in the order in which they were added: a star, a cavity or a polyhedron. Its *hull* is the set of faces
+/// between it and the rest of space. Reuse the object: it keeps its memory.
 class CellSet {
  public:
   /// Forgets all cells.
@@ -33,14 +33,15 @@ class CellSet {
   bool contains(CellId cell) const { return marks_[cell] == search_; }
   const std::vector<CellId>& cells() const { return cells_; }
 
-  /// Adds the cell behind each face, of all cells from the given place on, for whose code opens(code) is true.
+  /// Visits the faces of all cells from the given place on, and adds the cell behind each face for whose code
+  /// opens(code) is true.
   ///
   /// \param most  the largest number of cells
-  /// \return      false: there would be more
+  /// \return      false if there would be more
   template <class Opens>
   bool grow(const CellComplex& x, const Opens& opens, std::size_t first = 0,
             std::size_t most = std::numeric_limits<std::size_t>::max()) {
-    // Cells that join are met later in the same loop.
+    // Added cells are visited later in the same loop.
     for (std::size_t i = first; i < cells_.size(); ++i) {
       for (std::uint32_t f = 0; f < 4; ++f) {
         const std::uint32_t code = face_code(cells_[i], f), beyond = x.across(code);
@@ -73,9 +74,9 @@ class CellSet {
   std::uint16_t search_ = 0;
 };
 
-/// Makes the cells that remain of a star after its vertex has moved onto another one.
+/// Makes the remaining cells of a star after its vertex has moved onto another one.
 ///
-/// \param is_good  is_good(cell) gets each without its quality; false ends the search
+/// \param is_good  is_good(cell) gets each cell without its quality; false ends the search
 /// \return         are all good?
 template <class IsGood>
 bool collapse_star(const CellComplex& x, const std::vector<CellId>& star, std::uint32_t gone, std::uint32_t end,
@@ -96,9 +97,9 @@ inline bool is_on_hull(const std::vector<Triangle>& hull, std::uint32_t a, std::
   return std::ranges::any_of(hull, [&](const Triangle& face) { return has(face, a) && has(face, b); });
 }
 
-/// Are the segments among the edges of the cells on their hull?
+/// Are those edges of the cells that are segments on their hull?
 ///
-/// \param is_on_hull  is_on_hull(a, b): is the edge?
+/// \param is_on_hull  is_on_hull(a, b): is the edge on the hull?
 template <class Cells, class IsOnHull>
 bool keeps_segments(const CellComplex& x, const Cells& cells, const IsOnHull& is_on_hull) {
   return std::ranges::all_of(cells, [&](CellId c) {

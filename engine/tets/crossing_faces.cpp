@@ -14,14 +14,14 @@ std::array<Point3, 3> points_of(const CellComplex& x, const Triangle& t) {
   return {x.point(t[0]), x.point(t[1]), x.point(t[2])};
 }
 
-/// Do two triangles meet in more than common corners and edges?
+/// Do two triangles share more than corners and edges?
 bool cross(const CellComplex& x, Triangle s, Triangle t) {
   const int common = put_common_first(s, t);
   return common == 3 || meet_elsewhere(points_of(x, s), points_of(x, t), common).has_value();
 }
 
-/// The new faces of a facet. The space between them and the old ones consists of tetrahedra, each of a new face and a
-/// corner of the old ones. Some take space outside, others cut off space inside.
+/// The new faces of a facet. The space between them and the old ones consists of tetrahedra, each made of a new face
+/// and a corner of the old ones. Some take space outside, others cut off space inside.
 class FacetChange {
  public:
   FacetChange(const CellComplex& x, const Change& change, std::uint32_t facet) : x_(x), change_(change), facet_(facet) {
@@ -106,7 +106,7 @@ class FacetChange {
   const Change& change_;
   const std::uint32_t facet_;
   bool is_on_boundary_ = false;
-  int inside_ = 0;  ///< the sign of a face of the facet with a point in the domain
+  int inside_ = 0;  ///< the sign of `orient3d` of a face of the facet and a point in the domain
 };
 
 }  // namespace

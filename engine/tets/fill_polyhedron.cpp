@@ -37,7 +37,7 @@ CornerSet opposite(const Sides& sides, Corner v) {
   return (sides.below & corner_bit(v)) != 0 ? sides.above : 0;
 }
 
-/// The sides of a tetrahedron on a base, except the base, as the outside sees them.
+/// The sides of a tetrahedron on a base, except the base, as seen from outside.
 std::array<CornerTriangle, 3> sides_on(const CornerTriangle& base, Corner apex) {
   const auto& [a, b, c] = base;
   return {CornerTriangle{a, b, apex}, CornerTriangle{b, c, apex}, CornerTriangle{c, a, apex}};
@@ -57,7 +57,7 @@ bool PolyhedronFiller::fill(const CellComplex& x, const std::vector<Triangle>& h
   return true;
 }
 
-/// Numbers the vertices. \return false: they are too many
+/// Numbers the vertices. \return false if there are too many
 bool PolyhedronFiller::load(const CellComplex& x, const std::vector<Triangle>& hull) {
   vertices_.clear(), points_.clear(), hull_.clear();
   const auto corner_of = [&](std::uint32_t vertex) {
@@ -94,7 +94,8 @@ bool PolyhedronFiller::join_to_vertex() {
   return true;
 }
 
-/// The quality of the worst tetrahedron between a vertex and the faces; something up to `least` if it is not better.
+/// The quality of the worst tetrahedron between a vertex and the faces; any value up to `least` if it is not better
+/// than that.
 double PolyhedronFiller::quality_from(Corner v, double least) const {
   const auto sees = [&](const CornerTriangle& t) {
     return has(t, v) || orient3d(points_[t[0]], points_[t[1]], points_[t[2]], points_[v]) > 0;
@@ -109,10 +110,10 @@ double PolyhedronFiller::quality_from(Corner v, double least) const {
   return worst;
 }
 
-/// Are all faces at the vertex faces of the tetrahedra that join it to the other faces, and all others in two of them?
-/// A facet that ends inside the polyhedron could be lost.
+/// Joining the vertex to the other faces makes tetrahedra. Are all faces at the vertex faces of these, and is each
+/// further face in two of them? A facet that ends inside the polyhedron could be lost.
 bool PolyhedronFiller::keeps_all_faces(Corner v) const {
-  EdgeSets joined{}, at_vertex{};  // directed edges of the other faces, and opposite to the vertex
+  EdgeSets joined{}, at_vertex{};  // directed edges of the other faces, and those opposite the vertex
   const auto add = [](EdgeSets& edges, Corner a, Corner b) {
     const bool is_new = (edges[a] & corner_bit(b)) == 0;
     edges[a] |= corner_bit(b);
@@ -138,8 +139,8 @@ bool PolyhedronFiller::keeps_all_faces(Corner v) const {
   return true;
 }
 
-/// Is there a vertex that makes a good tetrahedron with a face? The least quality is often that of the best one on a
-/// face that must stay. Then no search succeeds.
+/// Is there a vertex that makes a good tetrahedron with a face? Often, a face that must stay has no tetrahedron above
+/// the least quality. Then no search succeeds.
 bool PolyhedronFiller::has_apex(const CornerTriangle& t) const {
   const auto corners = static_cast<Corner>(vertices_.size());
   for (Corner v = 0; v < corners; ++v)
@@ -242,7 +243,7 @@ bool PolyhedronFiller::is_pierced(const CornerTriangle& t) const {
   return found;
 }
 
-/// Puts a tetrahedron onto a face of the front. \return false: one of its sides cannot be there
+/// Puts a tetrahedron onto a face of the front. \return false if one of its sides cannot be there
 bool PolyhedronFiller::put(const CornerTriangle& base, Corner apex) {
   const auto find = [&](const CornerTriangle& t) {
     return std::ranges::find_if(front_, [&](const FrontFace& face) { return are_same(face.corners, t); });

@@ -11,13 +11,13 @@
 
 namespace ccdt::tets {
 
-/// Fills a polyhedron with tetrahedra without new vertices: joins its faces to one of its vertices or, if none sees
-/// them all, searches. At each step of the search, a tetrahedron is put onto the face of the front with the fewest
-/// possible apexes (after Liu, Sun, Wang 2006, "Small polyhedron reconnection"; Marot, Verhetsel, Remacle 2020,
-/// "Reviving the search for optimal tetrahedralizations").
+/// Fills a polyhedron with tetrahedra, adding no vertices: joins its faces to one of its vertices or, if none sees them
+/// all, searches. At each step of the search, a tetrahedron is put onto the face of the front with the fewest possible
+/// apexes (after Liu, Sun, Wang 2006, "Small polyhedron reconnection"; Marot, Verhetsel, Remacle 2020, "Reviving the
+/// search for optimal tetrahedralizations").
 ///
-/// What is found is right by construction: all tetrahedra are exactly positive, and each of their faces is shared by
-/// two of them or is one of the polyhedron. The tests for crossings only cut the search short.
+/// The result is right by construction: all tetrahedra are exactly positive, and each of their faces is shared by two
+/// of them or is one of the polyhedron. The tests for crossings only cut the search short.
 class PolyhedronFiller {
  public:
   /// A polyhedron with more vertices is not tried.
@@ -33,11 +33,11 @@ class PolyhedronFiller {
             std::vector<NewCell>& cells);
 
  private:
-  /// A face between what is filled and what is not; the latter is above.
+  /// A face between the filled part, below, and the unfilled part, above.
   struct FrontFace {
     CornerTriangle corners;
     Sides sides;
-    CornerSet apexes;  ///< possible ones if nothing were filled yet
+    CornerSet apexes;  ///< possible apexes if nothing were filled yet
   };
   /// By vertex: the other ends of edges.
   using EdgeSets = std::array<CornerSet, most_vertices>;
@@ -64,7 +64,7 @@ class PolyhedronFiller {
   VertexSides sides_;
   EdgeSets free_edges_{};  // those that do not cross the hull
   std::vector<FrontFace> front_;
-  std::vector<FrontFace> saved_front_;  // of all steps of the search, one after the other
+  std::vector<FrontFace> saved_front_;  // of all steps of the search, one after another
   EdgeSets edges_{};                    // of the hull and the tetrahedra
   std::vector<std::array<Corner, 4>> tetrahedra_;
   int steps_left_ = 0;

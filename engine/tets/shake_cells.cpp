@@ -5,7 +5,7 @@
 namespace ccdt::tets {
 namespace {
 
-/// The cells to change are found by random walks that are shorter than this.
+/// The cells to change are found by random walks shorter than this.
 constexpr int most_walk_steps = 16;
 
 constexpr std::uint32_t edges_of_cell = 6, faces_of_cell = 4;

@@ -30,9 +30,9 @@ struct Ring {
   std::uint32_t vertex_count() const { return is_closed ? size : size + 1; }
 };
 
-/// Walks around the edge ab from one of its cells, first through the face opposite to `from`, up to a wall.
+/// Walks around the edge ab from one of its cells, first through the face opposite `from`, up to a wall.
 /// \param visit  called with each cell that is entered and its fourth vertex; false ends the walk
-/// \return       the code of the wall that ends the walk, as the cell before it calls it; `no_neighbor`: `visit` did
+/// \return       the code of the wall that ends the walk, in the cell before it; `no_neighbor` if `visit` ended it
 template <class Visit>
 std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b, CellId cell, std::uint32_t from,
                           const Visit& visit) {
@@ -50,7 +50,7 @@ std::uint32_t walk_around(const CellComplex& x, std::uint32_t a, std::uint32_t b
   }
 }
 
-/// \return false: the ring is too long
+/// \return false if the ring is too long
 bool find_ring(const CellComplex& x, CellId cell, std::uint32_t before, std::uint32_t after, Ring& ring) {
   ring.size = 1;
   ring.is_closed = false;
@@ -68,7 +68,7 @@ bool find_ring(const CellComplex& x, CellId cell, std::uint32_t before, std::uin
   });
   if (ring.is_closed) return true;
   if (!fits) return false;
-  // There is a wall: the cells on the other side of the first cell come before it.
+  // There is a wall, so the cells on the other side of the first cell come before it.
   ring.begin_wall = walk_around(x, ring.a, ring.b, cell, after, [&](CellId next, std::uint32_t vertex) {
     fits = ring.size < longest_ring;
     if (!fits) return false;
@@ -150,7 +150,7 @@ bool add_ring(const CellComplex& x, const Ring& ring, double least, Change& chan
   return true;
 }
 
-/// The face with another corner.
+/// The face with one corner replaced by another.
 FaceChange with_corner(const CellComplex& x, std::uint32_t face, std::uint32_t from, std::uint32_t to) {
   FaceChange change{face, x.faces()[face]};
   std::ranges::replace(change.corners, from, to);
@@ -158,7 +158,7 @@ FaceChange with_corner(const CellComplex& x, std::uint32_t face, std::uint32_t f
 }
 
 /// Finds the ring on the other side of the facet where this ring ends, from its last wall to its first.
-/// \return false: the cells there do not allow exchanging the diagonal
+/// \return false if the cells there do not allow exchanging the diagonal
 bool find_other_side(const CellComplex& x, const Ring& ring, Ring& other) {
   other.size = 0;
   const std::uint32_t behind_begin = x.across(ring.begin_wall), behind_end = x.across(ring.end_wall);
@@ -180,7 +180,7 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
   const std::uint32_t facet = x.facet_of_face()[*face];
   if (!std::ranges::all_of(change.faces, [&](const FaceChange& f) { return is_new_and_upright(x, f.corners, facet); }))
     return false;
-  // At an edge where less than a half turn is inside, the new faces cut off a tetrahedron. At others they add one.
+  // At an edge with an inner angle below 180 degrees, the new faces cut off a tetrahedron. At others they add one.
   const bool takes_space = other.size == 0 && orient3d(x.point(a), x.point(b), x.point(first), x.point(last)) < 0;
   if (!takes_space) return true;
   change.space_taken = bounding_box(std::array{x.point(a), x.point(b), x.point(first), x.point(last)});
@@ -190,7 +190,7 @@ bool plan_flip(const CellComplex& x, const Ring& ring, double least, Change& cha
 /// The largest number of cells on one side of the removed faces.
 constexpr std::uint32_t most_faces = 6;
 
-/// The faces between two vertices, grown from one of them across its edges, and their edges at the rim.
+/// The faces between two vertices, grown from one of the faces across its edges, and their edges at the rim.
 class SandwichedFaces {
  public:
   SandwichedFaces(const CellComplex& x, std::uint32_t above, std::uint32_t below, double least, Change& change)
@@ -198,7 +198,7 @@ class SandwichedFaces {
 
   /// Removes a face with the cells on its two sides. Each of its edges is at the rim, or the next face is removed as
   /// well.
-  /// \return the quality of the worst new cell; when that is not above `least`, not all of them were made
+  /// \return the quality of the worst new cell; if it is not above `least`, not all of them were made
   double add_face(CellId upper, CellId lower, const Triangle& corners, int edges) {
     change_.old_cells.push_back(upper);
     change_.old_cells.push_back(lower);
@@ -224,7 +224,7 @@ class SandwichedFaces {
     return at_rim;
   }
 
-  /// \return the quality that crossing the edge gives; -1 if the next face is not between the same vertices
+  /// \return the quality that results from crossing the edge; -1 if the next face is not between the same vertices
   double cross(CellId upper, CellId lower, std::uint32_t u, std::uint32_t v, std::uint32_t w) {
     if (change_.old_cells.size() >= std::size_t{2} * most_faces) return -1;
     const std::uint32_t up = face_code(upper, x_.place(upper, w)), down = face_code(lower, x_.place(lower, w));
@@ -234,7 +234,7 @@ class SandwichedFaces {
     if (next == below_ || next != x_.apex_of(down_code)) return -1;
     if (x_.is_wall(face_code(next_upper, x_.place(next_upper, above_)))) return -1;
     if (has(change_.old_cells, next_upper)) return -1;
-    // Only the edges at the corner across are new. The third edge is the one that was crossed.
+    // Only the edges at the opposite corner are new. The third edge is the one that was crossed.
     return add_face(next_upper, next_lower, {u, next, v}, 2);
   }
 

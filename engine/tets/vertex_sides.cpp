@@ -28,8 +28,8 @@ void VertexSides::load(std::span<const Point3> points) {
   }
 }
 
-/// As `orient3d_filter` finds them, for four vertices at the same time. One bound of the error, that of the box of all
-/// vertices, leaves few more of them undecided than one for each, and takes a third less time.
+/// Like `orient3d_filter`, for four vertices at the same time. A single error bound, for the box of all vertices,
+/// leaves only a few more of them undecided than a bound for each vertex, and takes a third less time.
 CCDT_ALWAYS_INLINE void VertexSides::find_certain_sides(const Point3& origin, const Point3& normal,
                                                         Sides& sides) const {
   const Lanes zero = {}, bound = zero + error_;
@@ -83,7 +83,7 @@ void VertexSides::find(std::span<const Point3> points) {
 }
 
 bool VertexSides::is_around(const CornerTriangle& triangle, Corner p, Corner q) const {
-  // It does if s and t are on different sides of pqr, and r and t on different sides of pqs.
+  // It does so if s and t are on different sides of pqr, and r and t on different sides of pqs.
   const auto& [r, s, t] = triangle;
   const Sides* const around = p < q ? of_row(p, q) : of_row(q, p);
   const auto divides = [&](Corner v, CornerSet others) {

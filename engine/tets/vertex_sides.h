@@ -26,11 +26,11 @@ struct Sides {
   CornerSet above = 0, below = 0;
 
   Sides flipped() const { return {below, above}; }
-  /// \return 1: the vertex is above, -1: below
+  /// \return 1 if the vertex is above, -1 if it is below
   int side(Corner v) const { return static_cast<int>(above >> v & 1) - static_cast<int>(below >> v & 1); }
 };
 
-/// The sides of a few vertices relative to all triangles between them, exactly.
+/// The exact sides of a few vertices relative to all triangles between them.
 class VertexSides {
  public:
   static constexpr std::size_t most_vertices = 32;

@@ -10,7 +10,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// Six times the volume of a tetrahedron, 0 when it is flat but for rounding: neighbors in a tilted plane do not
+/// Six times the volume of a tetrahedron, or 0 if it is flat up to rounding, so that neighbors in a tilted plane do not
 /// cross.
 double volume(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   const Point3 u = b - a, v = c - a, w = d - a;

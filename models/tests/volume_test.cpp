@@ -19,8 +19,8 @@ double frustum(double a, double b, double height) {
   return pi * height * (a * a + a * b + b * b) / 3;
 }
 
-/// What a horizontal cylinder of radius r along x has between the plane x = `from` and the vertical cylinder of radius
-/// R.
+/// The volume of the part of a horizontal cylinder (radius r, along x) between the plane x = `from` and a vertical
+/// cylinder of radius R.
 double up_to_cylinder(double r, double from, double R) {
   constexpr int steps = 200000;  // midpoint rule over y = r sin t, smooth and periodic in t
   double sum = 0;

@@ -18,7 +18,7 @@ constexpr std::array<QualityMeasure, 4> measures = {{{"mean_r", "mean r", false}
                                                      {"worst_r", "worst r", false},
                                                      {"smallest_dihedral", "smallest dihedral angle", true}}};
 
-/// Compares the paper's mesh with a rival's of as many tetrahedra by every measure; the weaker form uses only the mean.
+/// Compares the paper's mesh with a rival's mesh of equal size by every measure; the weaker form uses only the mean.
 void add_rival(Results results, const std::string& figure, const std::string& variant, PaperClaim& claim) {
   const auto rows = [&](const std::string& name) {  // successful runs with a comparable number of tetrahedra
     return rows_of(results, figure, "quality", {{"variant", name}, {"status", "ok"}, {"comparable", "yes"}});
@@ -41,8 +41,8 @@ void add_rival(Results results, const std::string& figure, const std::string& va
   }
 }
 
-/// The rivals in a figure that was measured. The first differs from the paper's mesh only in where its interior
-/// vertices are; TetGen is another program's witness.
+/// The rivals in a figure that was measured. The first differs from the paper's mesh only in the places of its interior
+/// vertices. TetGen is an independent program.
 void add_figure(Results results, const std::string& figure, PaperClaim& claim) {
   if (!was_measured(results, figure)) return;
   add_rival(results, figure, "refinement", claim);

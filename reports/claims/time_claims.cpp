@@ -35,7 +35,7 @@ void add_estimates(const std::vector<ClaimRow>& rows, std::string_view column, c
                                           bound.test(*value, bound.strong), bound.test(*value, bound.weak)));
 }
 
-/// What the growth of a claim is read from.
+/// The measurements that show the growth in a claim.
 struct Grown {
   std::string strategy;
   std::vector<std::string> work;  ///< quantities of exact counts; none: time alone
@@ -46,7 +46,7 @@ const std::string linear_words = "within " + rounded(experiments::linear_within,
 
 using TestOfExponent = BoundTest (*)(const bench::Estimate&);
 
-/// Why no fit of this quantity is judged: "piston: 2.1 decades; 3 are needed". Empty if there is none.
+/// Why no fit of this quantity is judged: "piston: 2.1 decades; 3 are needed". Empty if there is no fit.
 std::string why_not_judged(Results results, const char* table, const std::string& strategy,
                            const std::string& quantity) {
   std::vector<std::string> reasons;
@@ -55,7 +55,7 @@ std::string why_not_judged(Results results, const char* table, const std::string
   return reasons.empty() ? "" : " (" + joined(reasons) + ")";
 }
 
-/// Adds the exponents of fits that may be judged; a missing measure if there is none.
+/// Adds the exponents of the fits that may be judged. If there are none, adds a missing measure.
 void add_exponents(Results results, const char* table, const std::string& strategy, const std::string& quantity,
                    const std::string& bound, TestOfExponent strong, TestOfExponent weak, PaperClaim& claim) {
   const std::string what = "exponent of " + quantity + ", " + strategy;
@@ -110,7 +110,7 @@ PaperClaim others_claim(Results results) {
   return claim;
 }
 
-/// Is visibility the largest part? Its tests are a lower bound of it, and the whole front is an upper one.
+/// Is visibility the largest part? Its cost is at least that of its tests and at most that of the whole front.
 BoundTest is_largest_part(const ClaimRow& row) {
   const double tests = row.number("visibility"), rest_of_front = row.number("rest_of_front"),
                outside = std::max(row.number("delaunay"), row.number("others"));
@@ -192,8 +192,8 @@ std::vector<PaperClaim> time_claims(Results results) {
   };
   PaperClaim check{"check-costs-little",
                    "6, Table 1",
-                   "With the face protection check, the CDT takes hardly longer than the Delaunay tetrahedralization "
-                   "from which it starts.",
+                   "With the face protection check, the CDT takes hardly more time than the Delaunay "
+                   "tetrahedralization from which it starts.",
                    {"table1"}};
   check.weaker = "They are of the same order of magnitude: less than " + rounded(same_order, 1) + " times.";
   add_ratios("with check / Delaunay", {experiments::is_at_most, little, same_order, "at most " + rounded(little)},
@@ -223,7 +223,7 @@ std::vector<PaperClaim> time_claims(Results results) {
                                 "With the uniform grid, the front makes a tetrahedron in constant expected time.",
                                 {"paper, without check", of_front, "front"}));
   claims.push_back(linear_claim(results, "linear-grid-delaunay", "5",
-                                "Delaunay tetrahedralization face by face in a uniform grid is linear, too.",
+                                "Delaunay tetrahedralization face by face in a uniform grid also takes linear time.",
                                 {"paper, with check", of_delaunay, "delaunay"}));
   claims.push_back(others_claim(results));
   claims.push_back(visibility_claim(results));

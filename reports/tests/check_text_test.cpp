@@ -21,7 +21,7 @@ repair::Diagnosis example_diagnosis() {
        .count = 1200,
        .at_least = true,
        .places = {crossing, hole}},
-      {.kind = FaultKind::bent_facets, .count = 2}};
+      {.kind = FaultKind::warped_facets, .count = 2}};
   return diagnosis;
 }
 

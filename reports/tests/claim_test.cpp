@@ -89,7 +89,7 @@ struct MadeUpFit {
   bool is_judged = true;
 };
 
-/// All fits have this exponent but the given ones.
+/// All fits have this exponent, except those in `others`.
 results::ExperimentResult fig8(const std::vector<MadeUpFit>& others,
                                const bench::Estimate& exponent = {1, 0.99, 1.01}) {
   const std::vector<results::Column> columns = {

@@ -18,7 +18,8 @@ ClaimVerdict verdict_on(const results::ExperimentResult& result, const std::stri
   return found->verdict;
 }
 
-/// Cases in which a conforming tetrahedralization needs vertices, and of these those where ours needs fewer or more.
+/// The number of cases where a conforming tetrahedralization needs vertices, and of those where ours needs fewer or
+/// more.
 struct Counts {
   double needed, fewer, more;
 };

@@ -111,7 +111,7 @@ TEST_F(SweepReport, ComparesTwoMeshersCaseByCase) {
   const ResultTable& pairs = table(made, "pairs_summary");
   ASSERT_EQ(pairs.rows.size(), 2u);
   EXPECT_EQ(sum_of(pairs, "both"), table(made, "pairs").rows.size());
-  EXPECT_EQ(sum_of(pairs, "both") + sum_of(pairs, "first_alone"), 2 * 12 * 4);
+  EXPECT_EQ(sum_of(pairs, "both") + sum_of(pairs, "only_first"), 2 * 12 * 4);
   for (const auto& row : pairs.rows) EXPECT_LT(results::number_in(pairs, row, "ratio"), 1);
 }
 

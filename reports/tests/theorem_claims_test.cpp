@@ -30,7 +30,7 @@ ClaimVerdict verdict_from(const std::string& experiment, const std::vector<resul
   return std::ranges::find(claims, id, &reports::PaperClaim::id)->verdict;
 }
 
-/// What was found among the PLCs of a family, as many of each kind.
+/// How many PLCs of each kind were found in a family.
 struct FamilyCounts {
   double against_if = 0, against_only_if = 0, without_cdt = 0;
   double cases = 10;

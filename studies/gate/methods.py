@@ -10,7 +10,7 @@ FEW = 5  # repetitions of such a limit
 
 
 def normal_u_test(a, b):
-    """The two-sided p-value of Mann and Whitney's test: normal, with the corrections for ties and continuity."""
+    """The two-sided p-value of the Mann-Whitney test: normal, with the corrections for ties and continuity."""
     ranked = sorted((value, side) for side, values in enumerate((a, b)) for value in values)
     rank_sum, ties, i = 0.0, 0.0, 0
     while i < len(ranked):
@@ -30,7 +30,7 @@ def normal_u_test(a, b):
 
 
 def compare_py():
-    """The U test of Google Benchmark's own compare.py, with its name; the one above if that or SciPy is missing."""
+    """The U test of Google Benchmark's compare.py, and its name. If that or SciPy is missing, the test above."""
     sys.path.append("/usr/share/benchmark")  # of Debian's libbenchmark-tools
     try:
         from gbench.report import calc_utest
@@ -49,7 +49,7 @@ def median_fires(base, head):
 
 
 def share(hits, trials, confidence=0.95):
-    """The share of hits with its interval of Clopper and Pearson."""
+    """The share of hits, with the Clopper-Pearson interval."""
     tail = (1 - confidence) / 2
 
     def at_most(k, p):

@@ -7,7 +7,7 @@
 /// The switch of the mutations that `studies/mutation/run` writes into a copy of the source; only they use it.
 namespace ccdt_mutations {
 
-/// Leaves a file: a survivor that was never reached needs another test than one that nobody noticed.
+/// Leaves a file, to tell whether a surviving mutation was reached. One that was never reached needs a different test.
 inline bool note_reached() {
   if (const char* name = std::getenv("CCDT_MUTATION_REACHED"))
     if (std::FILE* file = std::fopen(name, "w")) std::fclose(file);

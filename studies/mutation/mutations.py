@@ -102,7 +102,7 @@ def place_of(text, mutation):
 
 
 def switch(mutations, original):
-    """The text of one place: the original, unless one of its mutations is on."""
+    """The text of one place: a switch between the original and its mutations."""
     for mutation in reversed(mutations):
         on = f"::ccdt_mutations::is_on(\"{mutation['name']}\")"
         if mutation["kind"] == "expression":
@@ -113,7 +113,7 @@ def switch(mutations, original):
 
 
 def with_places(text, begin, end, places):
-    """The text from begin to end, in which these places are. They are in order, outer ones first."""
+    """The text from begin to end, with switches at these places. The places are in order, outer ones first."""
     result = ""
     while places:
         place, (first, last) = places[0][1], places[0][0]

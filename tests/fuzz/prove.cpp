@@ -7,7 +7,7 @@
 #include "bench/verify/verify.h"
 #include "engine/base/box.h"
 #include "engine/base/errors.h"
-#include "engine/plc/bent_facets.h"
+#include "engine/plc/warped_facets.h"
 
 namespace ccdt::fuzz {
 
@@ -176,7 +176,7 @@ class Prover {
 }  // namespace
 
 Proof prove(const InputPlc& input, const ProofOptions& options) {
-  const auto triangulated = plc::triangulate_bent_facets(input);
+  const auto triangulated = plc::triangulate_warped_facets(input);
   return Prover(triangulated ? *triangulated : input, options).prove();
 }
 

@@ -210,8 +210,8 @@ void bundle_of_segments(Scene& scene) {
   const auto offset = [&] {
     return Point3{spacing * count(scene, 0, 7) / 8, spacing * count(scene, 0, 7) / 8, spacing * count(scene, 0, 7) / 8};
   };
-  const double inwards = 0.25;  // away from the ends of a common segment, which are often on the body
-  for (int i = 0; i < segments; ++i) scene.segment(a + inwards * (b - a) + offset(), b + inwards * (a - b) + offset());
+  const double inward = 0.25;  // away from the ends of a common segment, which are often on the body
+  for (int i = 0; i < segments; ++i) scene.segment(a + inward * (b - a) + offset(), b + inward * (a - b) + offset());
 }
 
 /// A comb in one plane, or teeth that are facets side by side.

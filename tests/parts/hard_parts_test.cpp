@@ -6,7 +6,7 @@
 #include "bench/verify/verify.h"
 #include "engine/io/plc_files.h"
 #include "engine/mesher.h"
-#include "engine/plc/bent_facets.h"
+#include "engine/plc/warped_facets.h"
 #include "engine/tests/shared/plc_test_solids.h"
 #include "engine/tests/shared/real_parts.h"
 #include "tests/fuzz/prove.h"
@@ -21,7 +21,7 @@ using HardPart = testing::TestWithParam<std::filesystem::path>;
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(HardPart);
 
 TEST_P(HardPart, IsMeshedWithAllLatticesImprovedOrNot) {
-  const InputPlc given = io::read_plc(GetParam()), input = plc::triangulate_bent_facets(given).value_or(given);
+  const InputPlc given = io::read_plc(GetParam()), input = plc::triangulate_warped_facets(given).value_or(given);
   for (const Lattice lattice : {Lattice::none, Lattice::fcc, Lattice::bcc, Lattice::sc})
     for (const Improvement improvement : {Improvement::none, Improvement::all}) {
       SCOPED_TRACE(std::string(name_of(lattice)) + ", improve " + std::string(name_of(improvement)));
@@ -57,7 +57,7 @@ TEST(TurnedPart, IsMeshedThoughRoundingHasBentItsFacets) {
   }
 }
 
-// Its bent facets would meet each other if they all followed the Delaunay tetrahedralization.
+// Its nearly flat facets would meet each other if they all followed the Delaunay tetrahedralization.
 TEST(TurnedPart, IsMeshedThoughItsFacetsAreHardlyApart) {
   const std::filesystem::path file = folder_of_hard_parts() / "trimaker_nebula_platform.stl";
   if (!exists(file)) GTEST_SKIP() << file << " is missing";
@@ -67,7 +67,7 @@ TEST(TurnedPart, IsMeshedThoughItsFacetsAreHardlyApart) {
   EXPECT_TRUE(verify::verify(input, mesh_plc(input, options).mesh).ok());
 }
 
-// New faces of its bent facets could take space outside where another part of the domain is.
+// New faces of its nearly flat facets could take space outside where another part of the domain is.
 TEST(TurnedPart, StaysRightWithoutItsSteinerVertices) {
   const std::filesystem::path file = folder_of_hard_parts() / "kingroon_kp3.stl";
   if (!exists(file)) GTEST_SKIP() << file << " is missing";

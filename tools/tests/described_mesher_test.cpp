@@ -26,7 +26,7 @@ class DescribedMesher : public Program {
 
   Json report() const { return Json::parse(text_of(work() / "r.json")); }
 
-  /// Meshes by a description of the project, and verifies.
+  /// Meshes with a mesher that one of the project's descriptions describes, and verifies the mesh.
   void expect_right(const std::string& description, const std::string& options) const {
     const std::string file = std::string(DESCRIBED_FOLDER) + "/" + description + ".json";
     const Outcome meshed = run("mesh part.off -o part.vtu --report r.json --mesher '" + file + "' " + options);

@@ -8,13 +8,13 @@ class BenchmarkGate : public Gate {
  protected:
   BenchmarkGate() {
     std::filesystem::create_symlink(GATED_BENCHMARK, work() / "bench");
-    // Whatever the load of this machine is: what is tested here does not hang on it.
+    // Wide limits, so that the load of this machine does not change the result.
     write(
         "rules.json",
         R"({"schema": "ccdt.rules/1", "time": {"relative": 0.3, "largest_noise": 0.5, "at_least": 5, "at_most": 20}})");
   }
 
-  /// Base and head have these faults.
+  /// Runs a gate of a base and a head with these faults.
   Outcome gate(const std::string& base, const std::string& head, const std::string& layers = "exact,time") const {
     return run("gate --base 'env GATED=" + base + " ./bench' --head 'env GATED=" + head + " ./bench' --layers " +
                layers + " --rules rules.json -o out -- --benchmark_min_time=0.01");

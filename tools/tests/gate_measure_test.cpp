@@ -70,7 +70,7 @@ TEST_F(MeasuringGate, AnErrorIsNoVerdict) {
   EXPECT_FALSE(std::filesystem::exists(work() / "out/verdict.json"));
 }
 
-/// Programs that stand for those on Google Benchmark, with made-up times.
+/// Programs that imitate ones with Google Benchmark, with made-up times.
 class TimedGate : public Gate {
  protected:
   TimedGate() {

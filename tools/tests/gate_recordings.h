@@ -14,7 +14,7 @@ using Change = std::function<void(Json&)>;
 
 inline void change_nothing(Json&) {}
 
-/// A report of `ccdt mesh`, as far as a gate reads it.
+/// The parts of a report of `ccdt mesh` that a gate reads.
 inline Json run_of(const std::string& input) {
   return {{"schema", "ccdt.run/1"},
           {"mesher", {{"name", "ccdt"}, {"version", "1"}, {"revision", "abc"}}},

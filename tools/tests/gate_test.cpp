@@ -73,7 +73,7 @@ TEST_F(Gate, AFailedRunIsWorseAndAFixedOneBetter) {
     run["counts"]["vertices"] = 0;
   };
   EXPECT_EQ(judged("status", fail).at("verdict"), "worse");
-  EXPECT_EQ(verdict().at("counts").at("worse"), 1);  // what it did not produce is no other loss
+  EXPECT_EQ(verdict().at("counts").at("worse"), 1);  // the missing results are not counted as more losses
   EXPECT_EQ(run("gate base --against head -o out").exit_code, 3) << "no performance figure can be compared";
   for (const char* folder : {"base", "head"}) write_run(folder, "b.off");
   EXPECT_EQ(run("gate base --against head -o out").exit_code, 0);

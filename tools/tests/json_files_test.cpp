@@ -7,7 +7,7 @@
 #include "tools/tests/program.h"
 #include "tools/tests/published_schemas.h"
 
-// All JSON that the verbs write, whatever comes of it, against the schemas that come with the program.
+// Checks all JSON that the verbs write, in success and failure, against the schemas that come with the program.
 
 namespace ccdt {
 namespace {

@@ -36,7 +36,7 @@ class MisbehavingMesher : public Program {
   }
   void describe_child(const std::string& how) const { describe({MISBEHAVING_CHILD, how}); }
 
-  /// What the report says that `ccdt mesh` leaves.
+  /// The kind of failure in the report of `ccdt mesh`.
   std::string kind() const {
     std::filesystem::remove(work() / "r.json");
     const Outcome meshed = run("mesh part.off -o part.vtu --mesher mine.json --report r.json");

@@ -7,7 +7,7 @@
 #include "bench/run/run_record.h"
 #include "engine/base/work.h"
 
-// What the published schemas allow, and that they name all that the program can write.
+// Tests what the published schemas allow, and that they name everything the program can write.
 
 namespace ccdt {
 namespace {

@@ -7,7 +7,7 @@
 namespace ccdt {
 namespace {
 
-/// Files that somebody made who does not wish us well. They end in an error, and nothing else happens.
+/// Files made by somebody who does not wish us well. They cause an error, and nothing else happens.
 class StrangeFiles : public Program {
  protected:
   void expect_refused(const std::string& arguments) const {
@@ -40,7 +40,7 @@ class StrangeFiles : public Program {
   }
 
  private:
-  /// That of a real run.
+  /// The environment of a real run.
   nlohmann::json environment() const {
     if (!std::filesystem::exists(work() / "run.json")) {
       EXPECT_EQ(run("model cube --edge-length 1 -o cube.off").exit_code, 0);

@@ -45,7 +45,7 @@ Json deterministic(Json record) {
   return record;
 }
 
-/// A file that is not the same file any more has been written again.
+/// The state of a file. If it changes, the file was written again.
 struct FileState {
   ino_t inode = 0;
   std::int64_t changed = 0;

@@ -77,7 +77,7 @@ std::vector<BravaisLattice> all_lattices() {
           {"triclinic", "aP", skew, triclinic}};
 }
 
-/// The greatest and the mean r, of which less is better.
+/// The greatest and the mean r; less is better.
 using Rating = std::pair<double, double>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

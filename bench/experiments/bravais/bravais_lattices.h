@@ -26,24 +26,23 @@ struct BravaisLattice {
   std::string_view name;    ///< "face-centered cubic"
   std::string_view symbol;  ///< Pearson's: "cF"
   std::vector<FreeParameter> parameters;
-  /// The inner products of a basis of the smallest unit cell. May not be positive definite.
+  /// The inner products of a basis of the smallest unit cell. For some values, they are not positive definite.
   Gram (*gram)(const ParameterValues&);
 };
 
-/// From the cubic ones to the triclinic one. A lattice with free parameters includes those of higher symmetry as
-/// special values, because which it is depends on equations between its parameters.
+/// All lattices, from the cubic ones to the triclinic one. A lattice with free parameters includes those of higher
+/// symmetry as special values: it has such a symmetry if certain equations between its parameters hold.
 std::span<const BravaisLattice> bravais_lattices();
 
-/// The values with the least greatest r of a tetrahedron, and of these the least mean; each Delaunay polytope gets its
-/// best triangulation. All values on a coarse grid, then the best neighbor on finer and finer ones, down to 1/96.
+/// The values that minimize the greatest r of a tetrahedron, then the mean r. Each Delaunay polytope gets its best
+/// triangulation. Tries all values on a coarse grid, then the best neighbor on finer and finer grids, down to 1/96.
 ///
-/// What it finds is the optimum of all lattices where the body-centered cubic lattice is a special value. Proof:
-/// divided as the four vectors of Selling's reduction say, each lattice has six tetrahedra of equal volume, and the
-/// sums of their squared edges are 3 P plus the sum of two opposite parameters, with P the sum of all six. So their
-/// mean is 10 P / 3, and r of the greatest, as well as the mean of the convex function r, is at least what six equal
-/// tetrahedra would have. The volume at a given P is a concave function of the parameters (to the power of 2/3),
-/// symmetric, and greatest where all are equal: there all six tetrahedra are equal as well, and the lattice is
-/// body-centered cubic.
+/// If the body-centered cubic lattice is a special value, the search finds the global optimum. Proof: the four vectors
+/// of Selling's reduction divide each lattice into six tetrahedra of equal volume. The sums of their squared edges are
+/// 3 P plus the sum of two opposite parameters, where P is the sum of all six parameters. So the mean of these sums is
+/// 10 P / 3. The greatest r, as well as the mean of the convex function r, is at least that of six equal tetrahedra.
+/// The volume at a given P is a concave function of the parameters (to the power of 2/3), symmetric, and greatest where
+/// all parameters are equal. There, all six tetrahedra are also equal, and the lattice is body-centered cubic.
 ParameterValues best_parameters(const BravaisLattice& lattice, KnownTriangulations& known);
 
 /// The symbol of the cubic lattice to which a lattice is similar; empty if it is none.

@@ -38,7 +38,7 @@ Gram of_vectors(const Gram& gram, const std::array<Point, 3>& vectors);
 /// The vertices of a Delaunay polytope in lexicographic order, moved so that the first is the origin.
 using Polytope = std::vector<Point>;
 
-/// A lattice in a reduced basis, and its Delaunay polytopes, one of each that translations make equal.
+/// A lattice in a reduced basis, and its Delaunay polytopes. Of polytopes that are equal up to translation, it has one.
 struct LatticeCells {
   Gram gram;
   std::vector<Polytope> polytopes = {};
@@ -51,7 +51,7 @@ Gram reduced(const Gram& gram);
 /// The inner products of those four vectors, with opposite signs: 01, 02, 03, 12, 13, 23. None is negative.
 std::array<std::int64_t, 6> selling_parameters(const Gram& gram);
 
-/// The shortest vectors of each class modulo twice the lattice, but for 0. Two lattice points belong to one Delaunay
+/// The shortest vectors of each class modulo twice the lattice, except 0. Two lattice points belong to one Delaunay
 /// polytope only if their difference is such a vector, and a sphere through the origin is empty if none of these is in
 /// it, because they include all neighbors in the Voronoi diagram (Voronoi 1908; Conway and Sloane 1992).
 /// \pre the basis is reduced

@@ -11,8 +11,8 @@ namespace ccdt::bravais {
 using Cell = std::array<Point, 4>;  ///< a tetrahedron; its orientation does not matter
 using Triangulation = std::vector<Cell>;
 
-/// All ways to divide a polytope into tetrahedra that have its vertices, a volume, and whole faces in common: 3 for an
-/// octahedron, 74 for a cube.
+/// All ways to divide a polytope into tetrahedra with its vertices. Each tetrahedron has a volume, and they meet in
+/// whole faces. There are 3 ways for an octahedron and 74 for a cube.
 std::vector<Triangulation> all_triangulations(const Polytope& polytope);
 
 /// The same, each computed once.

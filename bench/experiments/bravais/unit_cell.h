@@ -16,8 +16,8 @@ struct UnitCell {
   Triangulation cells;
 };
 
-/// Which triangulation a Delaunay polytope gets that is no tetrahedron: the one with the least greatest r (then the
-/// least mean), or that with the greatest.
+/// Which triangulation a Delaunay polytope gets if it is not a tetrahedron. The best minimizes the greatest r (then the
+/// mean r); the worst maximizes it.
 ///
 /// Polytopes choose alone, because neighbors always fit: octahedra have triangles for faces; pyramids meet at their
 /// bases, and prisms at their rectangles, with their images by point reflection, which have the same diagonals; boxes

@@ -33,7 +33,7 @@ Circumcircle circumcircle_of(const std::array<Point3, 3>& t) {
   return {t[0] + offset, length(offset)};
 }
 
-/// The center, or if it is beyond all coordinates a place on the way to it. The way is blocked much nearer.
+/// The circumcenter, or a place on the way to it if it is beyond all coordinates. The boundary blocks the way earlier.
 Point3 reachable_center(const std::array<Point3, 3>& t, const Circumcircle& circle) {
   constexpr double farthest = 0x1p50;
   if (circle.radius < farthest) return circle.center;
@@ -41,7 +41,7 @@ Point3 reachable_center(const std::array<Point3, 3>& t, const Circumcircle& circ
   return middle + (farthest / length(circle.center - middle)) * (circle.center - middle);
 }
 
-/// Sorted, each with its smaller end first.
+/// Sorted edges, each with its smaller end first.
 using Edges = std::vector<planar::Edge>;
 
 Edges sorted_edges(std::vector<planar::Edge> edges) {
@@ -50,7 +50,7 @@ Edges sorted_edges(std::vector<planar::Edge> edges) {
   return edges;
 }
 
-/// Those that are edges of these triangles.
+/// The given edges that are edges of these triangles.
 std::vector<planar::Edge> edges_among(const Edges& edges, std::span<const Triangle> triangles) {
   std::vector<planar::Edge> found;
   for (const Triangle& t : triangles)
@@ -70,7 +70,7 @@ struct FacetVertex {
 class Conformer {
  public:
   Conformer(plc::Plc plc, protection::Protection strategy) : plc_(std::move(plc)), strategy_(strategy) {
-    // What the input's triangles are in a tetrahedralization changes with the vertices.
+    // Which faces of a tetrahedralization the input's triangles are changes with the vertices.
     std::ranges::fill(plc_.faces, plc::no_face);
     for (plc::Segment& s : plc_.segments) s.face = plc::no_face;
     of_input_ = plc_.vertices.size();
@@ -143,7 +143,7 @@ class Conformer {
     return {d.point(a), d.point(b), d.point(c)};
   }
 
-  /// Adds vertices for these faces, as far as they are not too near to each other. \return  false if it added none
+  /// Adds vertices for these faces, except where they would be too close together. \return  false if it added none
   bool add_vertices(const std::vector<std::uint32_t>& missing) {
     points_ = plc_.vertices;
     points_.insert(points_.end(), on_segments_.begin(), on_segments_.end());
@@ -269,7 +269,7 @@ class Conformer {
   ConformingDelaunay result_;
   std::vector<Point3> points_;  // of all vertices, for the triangulations of facets
   std::map<FacetId, FacetOfFace> facets_;
-  Edges segments_, pieces_;  // of the PLC, and of these so far
+  Edges segments_, pieces_;  // the segments of the PLC, and their current pieces
 };
 
 }  // namespace

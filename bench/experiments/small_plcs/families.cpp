@@ -91,7 +91,7 @@ void push_in_triangles(Random& random, std::uint64_t count, SmallPlc& plc) {
     plc.vertices.push_back(point_below(random, plc, t));
     plc.boundary.erase(plc.boundary.begin() + face);
     for (unsigned k = 0; k < 3; ++k) plc.boundary.push_back({t[k], t[(k + 1) % 3], dent});
-    // No edge pierces what bounds the piece that is cut off; if no vertex is in it either, it is all of the domain.
+    // No edge pierces the faces of the piece to cut off. If it contains no vertex either, the domain fills it.
     const auto at = [&](Vertex v) { return plc.vertices[v]; };
     const std::int64_t cut = six_volumes(at(t[0]), at(t[1]), at(t[2]), at(dent));
     bool is_dent = cut < 0 && is_valid(plc);
@@ -136,7 +136,7 @@ std::vector<Point> random_points(Random& random, std::int64_t least, std::int64_
   return points;
 }
 
-/// A convex polyhedron, generic; some of the vertices may be loose in it.
+/// A convex polyhedron in general position; some of the vertices may be loose inside it.
 SmallPlc random_hull(Random& random, std::int64_t least, std::int64_t most) {
   SmallPlc plc;
   do plc.vertices = random_points(random, least, most);

@@ -77,8 +77,8 @@ bool is_diagonal(const Polygon& facet, const Edge& edge) {
   return facet.size() == 4 && ((edge == edge_of(facet[0], facet[2])) || (edge == edge_of(facet[1], facet[3])));
 }
 
-/// Has the boundary two facets at each edge, and can each facet be reached from each over edges? Then it bounds one
-/// body without a void.
+/// Does the boundary have two facets at each edge, and do edges connect all facets? Then it bounds one body without a
+/// void.
 bool is_one_surface(const std::vector<Polygon>& boundary) {
   std::map<Edge, std::vector<std::size_t>> at_edge;
   for (std::size_t f = 0; f < boundary.size(); ++f)

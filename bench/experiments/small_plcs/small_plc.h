@@ -85,7 +85,7 @@ bool has(const Values& values, const typename Values::value_type& value) {
 Edge edge_of(Vertex a, Vertex b);
 Triangle triangle_of(Vertex a, Vertex b, Vertex c);
 
-/// Along the normal from which the corners are counterclockwise, and as long as twice the area.
+/// The normal, with twice the area as length. Seen from its tip, the corners are counterclockwise.
 Point area_vector(const SmallPlc& plc, const Polygon& polygon);
 
 /// A facet cut into triangles along a diagonal that is within it, in the order of its corners.
@@ -94,17 +94,17 @@ std::vector<Triangle> triangles_of(const SmallPlc& plc, const Polygon& polygon);
 /// Is the triangle of three corners of a facet within it, if none of the other corners is in the triangle?
 bool is_within(const SmallPlc& plc, const Polygon& polygon, const Triangle& triangle);
 
-/// Those of the boundary and the interior ones.
+/// The facets of the boundary and the interior facets.
 std::vector<Polygon> all_facets(const SmallPlc& plc);
 /// The edges of all facets and the segments, each once, sorted.
 std::vector<Edge> all_segments(const SmallPlc& plc);
 
 std::int64_t six_volumes(const SmallPlc& plc);
 
-/// Is the center of the vertices of a simplex inside of the domain, and not on its boundary?
+/// Is the center of the vertices of a simplex inside the domain, and not on its boundary?
 bool is_inside(const SmallPlc& plc, const std::vector<Vertex>& simplex);
 
-/// Are no four vertices in a plane (but corners of a facet), and no five on a sphere?
+/// Are no four vertices in a plane (except corners of a facet), and no five on a sphere?
 bool is_generic(const SmallPlc& plc, bool may_be_cospherical = false);
 
 /// Is the boundary one surface, do no edges pierce facets or cut them in two, is the volume positive, and are interior
@@ -135,7 +135,7 @@ class Random {
 struct Family {
   std::string_view name;
   std::string_view what;      ///< one sentence
-  bool is_cospherical;        ///< all vertices are on one sphere: outside of the theorem
+  bool is_cospherical;        ///< all vertices are on one sphere, so the theorem does not apply
   SmallPlc (*make)(Random&);  ///< may make one that is not valid or generic
 };
 std::span<const Family> families();

@@ -168,7 +168,7 @@ class Search {
   std::vector<Tetrahedron> candidates_;
   std::map<Triangle, std::vector<std::size_t>> at_face_;  ///< the candidates on both of its sides
   std::map<Triangle, FaceKind> kinds_;
-  std::vector<signed char> disjoint_;  ///< by pair of candidates, as far as it has been asked for
+  std::vector<signed char> disjoint_;  ///< by pair of candidates, computed when first asked for
   std::map<Triangle, OpenFace> open_;
   std::vector<std::size_t> chosen_;
   SearchResult result_;
@@ -198,9 +198,9 @@ std::vector<Wing> wings_at(const SmallPlc& plc, const Edge& edge) {
   return wings;
 }
 
-/// Of the others the one that is next counterclockwise.
+/// The next of the other wings, counterclockwise.
 const Wing& next_wing(const Point& axis, const std::vector<Wing>& wings, const Wing& wing) {
-  // Up to 180 degrees, exactly so, or above.
+  // 0: less than 180 degrees; 1: exactly 180 degrees; 2: more.
   const auto half = [&](const Wing& w) {
     const std::int64_t turn = determinant(axis, wing.direction, w.direction);
     return turn > 0 ? 0 : turn == 0 ? 1 : 2;
@@ -307,8 +307,8 @@ std::vector<Edge> grazeable_segments(const SmallPlc& plc) {
 bool is_strongly_delaunay(const std::vector<Point>& vertices, const Edge& edge) {
   // A sphere through the origin and b is |x|^2 = w x with w b = |b|^2; a vertex c is outside if |c|^2 > w c. By
   // Motzkin's theorem no w does it for c, d and e if and only if there are l, m, n >= 0, not all zero, and k with
-  // l c + m d + n e + k b = 0 and l |c|^2 + m |d|^2 + n |e|^2 + k |b|^2 <= 0. Cramer's rule gives the four numbers. (Of
-  // c, d and b in a plane with the origin it gives n = 0, so that pairs need no case of their own.)
+  // l c + m d + n e + k b = 0 and l |c|^2 + m |d|^2 + n |e|^2 + k |b|^2 <= 0. Cramer's rule gives the four numbers. (If
+  // c, d and b are in a plane with the origin, it gives n = 0, so pairs need no separate case.)
   const Point& origin = vertices[edge[0]];
   const Point b = vertices[edge[1]] - origin;
   std::vector<Point> others;
@@ -340,7 +340,7 @@ bool is_strongly_delaunay(const std::vector<Point>& vertices, const Triangle& tr
     return std::ranges::all_of(vertices, [&](const Point& e) {
       if (e == a || e == b || e == c || e == d) return true;
       const int other_side = orientation(a, b, c, e);
-      // On one side a sphere may grow away from both; of two coplanar vertices any third one tells.
+      // If both are on one side, a sphere may grow away from both. If both are coplanar, any third vertex decides.
       return other_side == side || side == 0 || side_of_sphere(a, b, c, d, e) < 0;
     });
   };
@@ -416,7 +416,7 @@ SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed) {
   return {};
 }
 
-std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
+std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_per_family) {
   const auto has_one = [](const SmallPlc& plc) { return search_constrained_delaunay(plc).constrained_delaunay > 0; };
   std::vector<ExistenceTrials> all;
   std::uint64_t seed = 1;
@@ -425,7 +425,7 @@ std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family) {
     ExistenceTrials& trials = all.emplace_back();
     trials.family = family.name;
     Random random(++seed);
-    for (std::uint64_t i = 0; i < cases_a_family; ++i) {
+    for (std::uint64_t i = 0; i < cases_per_family; ++i) {
       const SmallPlc plc = next_plc(family, random), more = with_interior_point(plc, ++seed);
       if (more.vertices.empty() || !has_one(plc)) continue;
       ++trials.cases;

@@ -18,15 +18,15 @@ inline Triangle face_opposite(const Tetrahedron& t, unsigned i) {
   return triangle_of(t[(i + 1) % 4], t[(i + 2) % 4], t[(i + 3) % 4]);
 }
 
-/// Has the circumsphere of a tetrahedron no vertex strictly inside?
+/// Is no vertex strictly inside the circumsphere of a tetrahedron?
 bool is_delaunay(const std::vector<Point>& vertices, const Tetrahedron& tetrahedron);
 
 /// The tetrahedra that are possible on their own in a tetrahedralization of a PLC: not flat, in the domain, without
 /// other vertices, crossed by no facet or segment.
 std::vector<Tetrahedron> possible_tetrahedra(const SmallPlc& plc);
 
-/// Do those of them that are Delaunay fill the domain and have all segments as edges? Then they are the DT of the
-/// paper's Theorem 1. \pre generic, so that Delaunay tetrahedra do not overlap
+/// Do the possible tetrahedra that are Delaunay fill the domain and have all segments as edges? Then they are the DT of
+/// the paper's Theorem 1. \pre generic, so that Delaunay tetrahedra do not overlap
 bool has_delaunay_tetrahedralization(const SmallPlc& plc);
 
 /// The result of an exhaustive search for constrained Delaunay tetrahedralizations.
@@ -38,10 +38,10 @@ struct SearchResult {
 
 /// Tries all ways to fill the domain with possible tetrahedra such that all segments are edges, all vertices are used,
 /// and each face that is on no facet is locally Delaunay; these are the constrained Delaunay tetrahedralizations
-/// (Shewchuk 2008, the Delaunay lemma). The search does not use that the tetrahedra of a DT are Delaunay.
+/// (Shewchuk 2008, the Delaunay lemma). The search does not rely on the fact that the tetrahedra of a DT are Delaunay.
 SearchResult search_constrained_delaunay(const SmallPlc& plc);
 
-/// The premise of the paper's Theorem 1 (section 5.2), part by part, and what explains it.
+/// The parts of the premise of the paper's Theorem 1 (section 5.2), and a fact that explains a violation.
 struct ProtectionState {
   bool edges = false;             ///< every grazeable segment is strongly Delaunay
   bool faces = false;             ///< every facet is filled by strongly Delaunay triangles of its corners
@@ -53,9 +53,9 @@ ProtectionState protection_of(const SmallPlc& plc);
 /// The segments with a sector of the domain of 180 degrees or more around them (Shewchuk 2002).
 std::vector<Edge> grazeable_segments(const SmallPlc& plc);
 
-/// Is there a sphere through both vertices with all others strictly outside? Such spheres have two degrees of freedom
-/// and each other vertex allows half a plane of them, so there is one if there is one for any three of the others
-/// (Helly 1923); and for three it is a matter of signs.
+/// Is there a sphere through both vertices with all others strictly outside? The centers of spheres through both form a
+/// plane, in which each other vertex allows a half-plane. So there is such a sphere if there is one for any three of
+/// the others (Helly 1923); for three, signs decide.
 bool is_strongly_delaunay(const std::vector<Point>& vertices, const Edge& edge);
 
 /// Is there a sphere through the three vertices with all others strictly outside? Here there is one degree of freedom,
@@ -102,6 +102,6 @@ SmallPlc with_interior_point(const SmallPlc& plc, std::uint64_t seed);
 
 /// Tests existence by exhaustive search, without and with the point, for this many PLCs of each family in general
 /// position.
-std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_a_family);
+std::vector<ExistenceTrials> try_interior_points(std::uint64_t cases_per_family);
 
 }  // namespace ccdt::small_plcs

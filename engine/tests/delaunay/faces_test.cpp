@@ -12,15 +12,16 @@
 #include "engine/front/find_delaunay_faces.h"
 #include "engine/tests/delaunay/delaunay_point_sets.h"
 
-// Triangles are found again as faces after vertices were added: the same codes as those of a search without any
-// knowledge of before.
+// After vertices were added, triangles are found again as faces. The codes must be the same as those of a search that
+// knows nothing of the state before.
 
 namespace ccdt {
 namespace {
 
 using Triangle = std::array<VertexId, 3>;
 
-/// Faces of the tetrahedralization, seen from any side, and as many triangles that are mostly none; some of them twice.
+/// Faces of the tetrahedralization, seen from any side, and as many random triangles, which are seldom faces. Some
+/// occur twice.
 std::vector<Triangle> some_triangles(const delaunay::Delaunay& d, std::size_t count, std::mt19937& random) {
   std::vector<Triangle> triangles;
   const auto any = [&](std::size_t end) { return static_cast<std::uint32_t>(random() % end); };
@@ -40,8 +41,8 @@ std::vector<Triangle> some_triangles(const delaunay::Delaunay& d, std::size_t co
   return triangles;
 }
 
-/// The codes of the triangles in a state of the tetrahedralization, in the cell on either side. Of equal triangles, any
-/// may have it, or all.
+/// The codes of some of the triangles in a state of the tetrahedralization, for the cell on either side. If triangles
+/// are equal, any or all of them may have a code.
 std::vector<std::uint32_t> some_codes(const std::vector<Triangle>& triangles, const delaunay::Delaunay& d,
                                       std::mt19937& random) {
   std::vector<std::uint32_t> codes;

@@ -71,7 +71,7 @@ InputPlc rounded_to_single(const InputPlc& input) {
 /// A protected surface and its faces.
 struct Surface {
   Surface(const InputPlc& input, double flatness) : plc(plc::build_plc(input, {.flatness = flatness})) {
-    bent = static_cast<std::size_t>(std::ranges::count(plc.facets, false, &plc::Facet::exactly_flat));
+    nearly_flat = static_cast<std::size_t>(std::ranges::count(plc.facets, false, &plc::Facet::exactly_flat));
     folds::SurfaceProtector protector(plc, delaunay::build_delaunay(plc.vertices), {}, plc::tolerance_of(plc, flatness),
                                       protection::Protection::shell);
     protector.protect_folds();
@@ -82,12 +82,12 @@ struct Surface {
   bool is_inside(RegionId region) const { return plc.regions[region].inside; }
 
   plc::Plc plc;
-  std::size_t bent = 0;  ///< facets of the input
+  std::size_t nearly_flat = 0;  ///< facets of the input
   protection::ProtectedDelaunay surface;
   facets::FacetMesh faces;
 };
 
-/// Every edge of two faces with a sector of the domain of more than 180 degrees must be Delaunay.
+/// Every edge between two faces must be Delaunay if the domain spans more than 180 degrees there.
 void expect_reflex_edges_are_delaunay(const Surface& s) {
   std::map<std::array<std::uint32_t, 2>, std::vector<std::uint32_t>> faces_at;
   for (std::uint32_t i = 0; i < s.faces.triangles.size(); ++i)
@@ -129,19 +129,19 @@ constexpr double rough_flatness = 4e-6;
 template <class Check>
 void for_rough_plates(const Check& check) {
   std::mt19937 random(1);
-  std::size_t bent = 0, divided = 0;
+  std::size_t nearly_flat = 0, divided = 0;
   for (int i = 0; i < 30; ++i) {
     SCOPED_TRACE(i);
     try {
       const Surface surface(rough_plate(1e-5, random), rough_flatness);
-      bent += surface.bent;
+      nearly_flat += surface.nearly_flat;
       divided += surface.plc.facets.size();
       check(surface);
     } catch (const InputError&) {  // its facets cross
     }
   }
-  EXPECT_GT(bent, 20u);
-  EXPECT_GT(divided, bent);
+  EXPECT_GT(nearly_flat, 20u);
+  EXPECT_GT(divided, nearly_flat);
 }
 
 TEST(Invariant, ReflexEdgesAreDelaunay) {
@@ -190,7 +190,7 @@ Triangles sorted_triangles(Triangles triangles) {
   return triangles;
 }
 
-/// A plane strip of two needles above a square of two triangles, all in one bent facet, and a vertex below.
+/// A plane strip of two needles above a square of two triangles, all in one nearly flat facet, and a vertex below.
 plc::Plc strip_and_square() {
   const auto id = [](std::uint32_t v) { return VertexId(v); };
   plc::Plc plc;
@@ -267,7 +267,7 @@ TEST(Contacts, AreOfMovedFacesWithOthersOfWhichOneIsMissing) {
 }
 
 /// A cube of two parts, on both sides of a square that bends along a diagonal by less than the tolerance.
-InputPlc cube_with_a_bent_diaphragm() {
+InputPlc cube_with_a_nearly_flat_diaphragm() {
   InputPlc cube;
   for (const double z : {0.0, 0.5, 1.0})
     for (const auto& [x, y] : {std::array{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}})
@@ -286,7 +286,7 @@ InputPlc cube_with_a_bent_diaphragm() {
 }
 
 TEST(Invariant, HoldsWithInteriorVerticesBesideAFold) {
-  const InputPlc input = cube_with_a_bent_diaphragm();
+  const InputPlc input = cube_with_a_nearly_flat_diaphragm();
   MeshOptions options;
   options.edge_length = 0.1;
   options.improve = {.improvement = Improvement::none, .steiner = SteinerRule::keep};
@@ -301,7 +301,7 @@ TEST(Invariant, HoldsWithInteriorVerticesBesideAFold) {
 
 /// The protector's answer for a fold that interior vertices have destroyed.
 TEST(Invariant, DoesNotHoldWhereInteriorVerticesDestroyAFold) {
-  plc::Plc plc = plc::build_plc(cube_with_a_bent_diaphragm());
+  plc::Plc plc = plc::build_plc(cube_with_a_nearly_flat_diaphragm());
   const delaunay::Delaunay vertices = delaunay::build_delaunay(plc.vertices);
   folds::SurfaceProtector protector(plc, vertices, {}, plc::tolerance_of(plc, usual_flatness),
                                     protection::Protection::shell);

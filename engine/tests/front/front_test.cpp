@@ -70,7 +70,7 @@ TEST(Front, KeepsAFacetThatADelaunayEdgePierces) {
 }
 
 TEST(Front, KeepsAVertexWhoseDelaunayEdgesAllGoThroughFacets) {
-  // In a thin plate between vertices outside of it.
+  // In a thin plate between vertices outside it.
   plc::InputPlc plate = unit_cube();
   for (Point3& p : plate.vertices) p = {16 * p.x, 4 * p.y, (2 + 14 * p.z) / 1024};
   plate.vertices.insert(

@@ -75,7 +75,7 @@ TEST(FindApexAsPaper, SeesAWallThatTouchesTheThreeTrianglesAndCrossesNone) {
   for (const std::uint32_t v : {3, 4, 5})
     EXPECT_LT(insphere(wall.point(0), wall.point(1), wall.point(2), wall.point(6), wall.point(v)), 0);
   const locate::GridLocator grid(wall.delaunay.vertices, wall.facets.triangles);
-  const auto apex = find_apex_as_paper(grid, wall.facets, wall.delaunay, {0, 1, 2});
+  const auto apex = find_apex_as_in_paper(grid, wall.facets, wall.delaunay, {0, 1, 2});
   EXPECT_EQ(apex, find_apex(grid, wall.facets, wall.delaunay, {0, 1, 2}));
   ASSERT_TRUE(apex.has_value());
   EXPECT_NE(*apex, 6u);

@@ -12,7 +12,7 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Integer = CGAL::Gmpz;
 
-// Coefficients are integers below 2^170 and, if not zero, at least 1: this epsilon is below all their quotients.
+// Nonzero coefficients are integers below 2^170 in magnitude, so this epsilon is smaller than any of their quotients.
 constexpr unsigned epsilon_bits = 200;
 
 Kernel::Point_3 kernel_point(const Point3& p) {

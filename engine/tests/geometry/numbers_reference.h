@@ -5,8 +5,8 @@
 
 #include "engine/base/point.h"
 
-/// The signs of engine/geometry/predicates.h by other means: CGAL's exact kernel, and determinants in GMP's integers in
-/// which every infinitesimal is a tiny number indeed.
+/// Computes the signs of engine/geometry/predicates.h in another way: with CGAL's exact kernel, and as determinants in
+/// GMP's integers, where each infinitesimal is an actual tiny number.
 namespace ccdt::test::reference {
 
 int orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d);

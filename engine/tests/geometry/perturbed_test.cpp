@@ -31,10 +31,10 @@ int first_coefficient(const std::array<Point3, 5>& p, const std::array<std::uint
 }
 
 template <class Case>
-void for_all_families(int cases_a_family, const Case& one) {
+void for_all_families(int cases_per_family, const Case& one) {
   Random random(1981);
   for (const Family family : all_families)
-    for (int i = 0; i < cases_a_family; ++i) one(random, draw_points(random, family));
+    for (int i = 0; i < cases_per_family; ++i) one(random, draw_points(random, family));
 }
 
 TEST(PerturbedInsphere, TakesTheFirstCoefficientThatIsNotZero) {

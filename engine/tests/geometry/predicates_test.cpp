@@ -13,15 +13,15 @@ using namespace test;
 
 /// Compares a sign with its reference on points of every family.
 template <class Tested, class Reference>
-void expect_equal_signs(int cases_a_family, const Tested& tested, const Reference& reference) {
+void expect_equal_signs(int cases_per_family, const Tested& tested, const Reference& reference) {
   Random random(20051);
   for (const Family family : all_families) {
     int disagreements = 0;
-    for (int i = 0; i < cases_a_family; ++i) {
+    for (int i = 0; i < cases_per_family; ++i) {
       const auto p = draw_points(random, family);
       if (tested(p) != reference(p)) ++disagreements;
     }
-    EXPECT_EQ(disagreements, 0) << "of " << cases_a_family << " of family " << static_cast<int>(family);
+    EXPECT_EQ(disagreements, 0) << "of " << cases_per_family << " of family " << static_cast<int>(family);
   }
 }
 

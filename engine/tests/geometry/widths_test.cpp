@@ -14,13 +14,13 @@ using namespace test;
 
 constexpr int most_bits = 51;
 
-/// A corner of the cube of this half-size around the origin, some of its coordinates one nearer to zero.
+/// A corner of the cube of this half-size around the origin. Some coordinates are nearer to zero by one.
 Point3 draw_near_corner(Random& random, double half) {
   const auto one = [&] { return (random() % 2 == 0 ? 1 : -1) * (half - static_cast<double>(random() % 4 == 0)); };
   return {one(), one(), one()};
 }
 
-/// Calls one(points, bits) with the origin and corners of cubes, so that differences to the origin have these bits.
+/// Calls one(points, bits) with the origin and corners of cubes, so that differences from the origin have `bits` bits.
 template <class Case>
 void for_all_widths(const Case& one) {
   Random random(31);

@@ -22,14 +22,14 @@ using namespace improve_test;
 
 constexpr double spacing = 1099511627776.0;  // 2^40 grid units
 
-/// A cube of n x n x n small cubes, filled with the Delaunay tetrahedra of their corners, each of which has moved by a
-/// random amount where it was free to: in its face, along its edge, or anywhere inside.
+/// A cube of n x n x n small cubes, filled with the Delaunay tetrahedra of their corners. Each corner was moved by a
+/// random amount within its face or edge of the large cube, or anywhere if it is inside.
 struct Cube {
   Model model;
   std::vector<improve::Freedom> freedom;  ///< of the vertices on the boundary
 };
 
-/// The axes along which a vertex is at an end of the cube.
+/// For each axis: is the vertex at one of the two ends of the cube?
 std::array<bool, 3> at_end(const Point3& p, int n) {
   std::array<bool, 3> result = {};
   for (std::size_t i = 0; i < 3; ++i) result[i] = as_array(p)[i] == 0 || as_array(p)[i] == n * spacing;
@@ -67,7 +67,7 @@ std::vector<Point3> moved_corners(int n, double jitter, std::mt19937& random) {
   return boundary;
 }
 
-/// The side of the cube that a face is on: one bit for each that all of its corners are on.
+/// The sides of the cube that contain all of these corners, with one bit for each side.
 template <std::size_t Corners>
 std::uint32_t common_sides(const std::vector<Point3>& points, const std::array<std::uint32_t, Corners>& corners,
                            int n) {

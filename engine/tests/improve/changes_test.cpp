@@ -243,8 +243,8 @@ TEST(Changes, DiagonalOnAFacetBetweenRegionsIsExchangedOnBothSides) {
     EXPECT_EQ(x.region(c), std::ranges::count(x.cell(c).vertices, 4u) == 1 ? 1 : 2);
 }
 
-/// A facet that is a dart, flat but for 3 units of 10,000: corner 1 is reflex, between 2 and 3. Vertex 4 is hardly
-/// above its plane. Without the edge from 0 to 1 there would be positive tetrahedra, but outside of the dart.
+/// A dart-shaped facet, flat up to 3 units in 10,000. Corner 1 is reflex, between 2 and 3. Vertex 4 is just above the
+/// plane. Removing the edge from 0 to 1 would give positive tetrahedra, but they would reach outside the dart.
 Model nearly_flat_dart() {
   Model model;
   model.points = {{0, -10000, 0}, {0, -1000, -3}, {-10000, 0, 0}, {10000, 0, 0}, {0, 5000, 10}};
@@ -262,8 +262,8 @@ TEST(Changes, DiagonalOnANearlyFlatFacetIsNotExchangedWhereItsFacesWouldFoldOver
     EXPECT_FALSE(tets::plan_edge_removal(x, c, edge_of_cell(x, c, 0, 1), 0, change));
 }
 
-/// A pyramid whose base is a parallelogram halfway between two axes, flat but for a few units, of four faces around
-/// vertex 4 in its middle. Vertex 5 is the apex; there are more vertices inside.
+/// A pyramid on a parallelogram halfway between two axes. The base is flat up to a few units, and consists of four
+/// faces around vertex 4 in its middle. Vertex 5 is the apex; there are more vertices inside.
 Model pyramid_on_a_fan(std::mt19937& random) {
   std::uniform_int_distribution<int> any(-100000, 100000), few(-3, 3);
   const auto number = [&](auto& distance) { return static_cast<double>(distance(random)); };
@@ -303,8 +303,8 @@ bool are_positive(const Model& model) {
                              [&](const Tetrahedron& t) { return orient3d(p[t[0]], p[t[1]], p[t[2]], p[t[3]]) > 0; });
 }
 
-// The normals of needles next to the line between opposite corners may point anywhere. And the closest axis to a normal
-// may be another one for each face.
+// Needles next to the line between opposite corners may have normals in any direction. The axis closest to the normal
+// may also be a different one for each face.
 TEST(Changes, FacesOfANearlyFlatFacetAreSeenAlongOneAxis) {
   std::mt19937 random(1);
   int flipped = 0;

@@ -76,7 +76,7 @@ void expect_not_worse(const TetMesh& before, const TetMesh& after, const Improve
   }
 }
 
-/// The greatest distance between the places of one of the first vertices.
+/// The greatest distance that any of the first `vertices` vertices has moved from one mesh to the other.
 double farthest_move(const TetMesh& a, const TetMesh& b, std::size_t vertices) {
   double square = 0;
   for (std::size_t v = 0; v < vertices; ++v) square = std::max(square, squared_length(b.vertices[v] - a.vertices[v]));

@@ -56,7 +56,7 @@ double radius(const Star& star) {
   return std::sqrt(squared);
 }
 
-/// The best of ever finer grids around the best so far. `directions` spans where the apex may go.
+/// The best quality on finer and finer grids, each around the best point so far. The apex may move along `directions`.
 double best_of_grids(const Star& star, const tets::QualityGoal& goal, std::span<const Point3> directions) {
   Point3 best = star.apex;
   double quality = improve::worst_of_star(star.faces, goal, best);
@@ -140,8 +140,8 @@ TEST(StarFunctions, AgreeWithTheQualityOfSingleTetrahedra) {
   }
 }
 
-/// Value and gradient of each model are those of one function: its value in the models nearby, in the same order,
-/// differs by what the gradient says.
+/// The value and the gradient of a model belong to the same function: models made at nearby points, in the same order,
+/// have values that differ as the gradient predicts.
 TEST(StarFunctions, HaveTheGradientsOfFiniteDifferences) {
   constexpr double everything = 100, step = 1e-5;
   improve::ScaledStar scaled;
@@ -153,7 +153,7 @@ TEST(StarFunctions, HaveTheGradientsOfFiniteDifferences) {
       const double least = improve::least_quality(goal, x, scaled);
       improve::model_star(goal, x, least, everything, scaled, models);
       for (const Point3& axis : all_axes) {
-        // The surplus of 1 / r is on top of what `least` is said to be.
+        // All three models must get the same `least`, because the surplus of 1 / r is added to it.
         improve::least_quality(goal, x + step * axis, scaled);
         improve::model_star(goal, x + step * axis, least, everything, scaled, ahead);
         improve::least_quality(goal, x - step * axis, scaled);

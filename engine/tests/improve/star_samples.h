@@ -11,7 +11,7 @@
 #include "engine/delaunay/delaunay.h"
 #include "engine/improve/smoothing.h"
 
-/// Stars of vertices, for tests of what moves or removes these.
+/// Stars of vertices, for tests of functions that move or remove vertices.
 namespace ccdt::test {
 
 struct Star {

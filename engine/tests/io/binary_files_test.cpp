@@ -15,7 +15,7 @@ io::FileBytes in_memory(std::string_view bytes) {
   return {"damaged", std::string(bytes)};
 }
 
-/// What a binary format is read by, and a good file of it.
+/// The reader of a binary format, and a valid file in this format.
 struct BinaryFormat {
   std::string name, good;
   std::function<void(const io::FileBytes&)> read;
@@ -36,7 +36,7 @@ void append(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// Version 2.2 in binary, which we do not write: a tetrahedron of region 9, a point, and two faces in one block.
+/// A binary file of version 2.2, which we do not write: a tetrahedron of region 9, a point, and two faces in one block.
 std::string binary_gmsh2() {
   std::string bytes = "$MeshFormat\n2.2 1 8\n";
   append(bytes, 1);
@@ -132,7 +132,7 @@ void append_swapped(std::string& bytes, Integer value) {
   std::reverse(bytes.end() - sizeof value, bytes.end());
 }
 
-/// A .meshb by hand: a vertex section of four points, one that nobody knows, and a tetrahedron of region -3.
+/// A handmade .meshb file: four vertices, a section of unknown type, and a tetrahedron of region -3.
 template <class Real, class Integer, class Position>
 std::string meshb(int version, bool swapped) {
   std::string bytes;

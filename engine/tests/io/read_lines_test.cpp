@@ -11,7 +11,7 @@
 #include "engine/base/parallel.h"
 #include "engine/tests/io/io_test_files.h"
 
-// Items that are read on several threads are the same as those read one after the other, whatever the lines are like.
+// Reading items on several threads gives the same items as reading them one by one, whatever the layout of the lines.
 
 namespace ccdt {
 namespace {

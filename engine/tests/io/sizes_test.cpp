@@ -48,7 +48,7 @@ TEST(ReadSizes, OfMeditBesideATetrahedralMesh) {
 TEST(ReadSizes, OfMeditBesideASurfaceHaveNoTetrahedra) {
   const Folder folder;
   put(folder / "a.mesh", medit_surface);
-  // As mmg writes it, but for the End.
+  // As mmg writes it, but without the final End.
   put(folder / "a.sol", "MeshVersionFormatted 2\n\nDimension\n3\n\nSolAtVertices\n4\n1 1 \n1 \n2.5 \n3 \n0.25 \n");
   const sizes::BackgroundSizes sizes = io::read_sizes(folder / "a.sol");
   EXPECT_EQ(sizes.sizes, four_sizes);

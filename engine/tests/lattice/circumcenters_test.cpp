@@ -33,7 +33,7 @@ std::vector<Point3> refine(const Shape& shape, const LatticeOptions& options) {
   return lattice::place_circumcenters(surface_of(shape), delaunay::build_delaunay(shape.vertices), options).points;
 }
 
-/// The circumcenter of a cell by Cramer's rule in long double, and what a cell is judged by.
+/// The circumcenter of a cell, by Cramer's rule in long double, and the measures by which a cell is judged.
 struct Sphere {
   Point3 center, centroid;
   double radius, shortest_edge;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double side = 0x1p40;
 
-/// Vertices and small triangles of them; graded: their distances to a corner of the box range over many powers of two.
+/// Vertices and the small triangles that they form. If graded, distances to a point span many powers of two.
 struct Scene {
   std::vector<delaunay::DelaunayVertex> vertices;
   std::vector<std::array<VertexId, 3>> triangles;
@@ -40,7 +40,7 @@ struct Scene {
   const Point3& corner(std::size_t triangle, int i) const { return vertices[triangles[triangle][i]].point; }
 };
 
-/// Have the closed segment and the closed triangle a point in common? (Touching in one plane may count as well.)
+/// Do the closed segment and the closed triangle have a point in common? (Touching in one plane may count as well.)
 bool passes(const Point3& p, const Point3& q, const Point3& a, const Point3& b, const Point3& c) {
   if (orient3d(a, b, c, p) * orient3d(a, b, c, q) > 0) return false;
   const std::array turns = {orient3d(p, q, a, b), orient3d(p, q, b, c), orient3d(p, q, c, a)};
@@ -159,7 +159,7 @@ TEST(OctreeLocator, OfNothingFindsNothing) {
   EXPECT_FALSE(locator.any_near_edge({0, 0, 0}, {1, 1, 1}, [](std::uint32_t) { return true; }));
 }
 
-/// Oblique square plates, one above the other at a very small distance, with a facet on each.
+/// Oblique square plates, stacked with very small gaps, with a facet on each.
 struct Stack : Scene {
   static constexpr std::uint32_t plates = 6, steps = 20;
   std::vector<FacetId> facets;

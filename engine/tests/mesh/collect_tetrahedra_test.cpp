@@ -16,7 +16,7 @@
 #include "engine/tests/shared/mesh_test_solids.h"
 #include "engine/tets/cell_complex.h"
 
-// The neighbors that cells keep from the Delaunay tetrahedralization are those that faces have by their corners.
+// The neighbors that cells keep from the Delaunay tetrahedralization must be those found by matching corners of faces.
 
 namespace ccdt {
 namespace {

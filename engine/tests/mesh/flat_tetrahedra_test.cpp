@@ -15,9 +15,9 @@ namespace {
 
 using namespace mesh_test;
 
-/// A tetrahedron over the narrow triangle 0 1 2, whose face there has another vertex, 4, beside the middle of the short
-/// edge 0 1 and above the plane, by so little that the two triangles at it are one facet. A third triangle, a facet of
-/// its own, closes the gap to the edge.
+/// A tetrahedron over the narrow triangle 0 1 2. The surface there has one more vertex, 4, beside the middle of the
+/// short edge 0 1. It is so little above the plane that its two triangles with vertex 2 are one facet. A third
+/// triangle, which is a facet of its own, closes the gap to the edge.
 InputPlc tetrahedron_with_a_closed_gap() {
   InputPlc plc;
   plc.vertices = {{0, 0, 0}, {1e-4, 0, 0}, {5e-5, 4, 0}, {5e-5, 1, -4}, {5e-5, 0, 1e-8}};
@@ -35,7 +35,7 @@ TEST(FlatTetrahedra, WithAFaceOnAnotherFacetAreNotRemoved) {
   expect_verified(input, result.mesh);
 }
 
-// Both sides of the plate may get the same triangle, which the front then has twice.
+// Both sides of the plate may get the same triangle. Then it is twice in the front.
 TEST(FlatTetrahedra, OfAPlateThinnerThanTheToleranceDoNotConfuseTheFront) {
   std::mt19937 random(1);
   MeshOptions options;
@@ -52,10 +52,10 @@ TEST(FlatTetrahedra, OfAPlateThinnerThanTheToleranceDoNotConfuseTheFront) {
   EXPECT_GT(meshed, 0);
 }
 
-/// A facet of the triangles 0 1 3 and 0 3 2, with a flat tetrahedron below them and another one below that.
+/// A facet of the triangles 0 1 3 and 0 3 2, with a flat tetrahedron below it, and another tetrahedron below that one.
 ///
 /// \param fourth  vertex 3, a little above the plane of the others
-/// \return  how many of the two remain
+/// \return  how many of the two tetrahedra remain
 std::size_t count_after_finish(const Point3& fourth) {
   plc::Plc plc;
   plc.regions = {{.inside = false}, {.inside = true}};
@@ -80,7 +80,7 @@ TEST(FlatTetrahedra, StayWhereTheFacetWouldFoldOver) {
   EXPECT_EQ(count_after_finish({4, 4, 0x1p-20}), 2u);
 }
 
-/// The facets of the last two triangles are one, whose other diagonal, 3 5, is an edge of the facets beside it.
+/// The last two triangles form one facet. Its other diagonal, 3 5, is an edge of the adjacent facets.
 InputPlc solid_with_a_facet_that_touches_an_edge() {
   InputPlc plc;
   plc.vertices = {{120.71760559082031, 206.234130859375, -979.236572265625},
@@ -119,7 +119,7 @@ InputPlc solid_with_a_vertex_beside_an_edge() {
   return plc;
 }
 
-// The edge is not a part of the facets on the other side of the vertex.
+// The facets on the other side of the vertex do not contain the edge.
 TEST(FlatTetrahedra, OfOneFacetDoNotBelongToAnEdgeBesideIt) {
   const InputPlc input = solid_with_a_vertex_beside_an_edge();
   MeshOptions options;

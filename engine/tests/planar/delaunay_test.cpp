@@ -100,7 +100,7 @@ TEST(PlanarDelaunay, ReportsThatAllAreCollinear) {
 
 TEST(PlanarDelaunay, ReportsVerticesAtTheSamePlace) {
   for (std::uint32_t copied = 0; copied < 12;
-       ++copied) {  // each in turn, for corners of the hull are met on another way
+       ++copied) {  // each in turn, because the algorithm reaches corners of the hull in another way
     for (const std::size_t at : {std::size_t{0}, std::size_t{6}, std::size_t{12}}) {
       IntegerPlane plane = random_points(12, 50, 9);
       const IntegerPoint copy = plane.points[copied];

@@ -219,7 +219,7 @@ TEST(PlanarConstraint, KeepsAConstrainedSpikeThatReachesIntoItsChannel) {
   expect_locally_delaunay(t, plane);
 }
 
-/// Random edges, of which those that cross earlier ones are left out.
+/// Random edges, without those that cross earlier ones.
 Edges random_constraints(const IntegerPlane& plane, std::size_t tries, std::mt19937& random) {
   planar::Triangulation t = triangulate(plane, {}).triangulation;
   const std::int64_t area = twice_area(t, plane);

@@ -33,7 +33,7 @@ Triangle random_triangle(std::mt19937& random, int extent) {
   return t;
 }
 
-/// Are all of the one strictly beyond all of the other along the axis? Exact for the small integers of these tests.
+/// Are the points of one set strictly beyond those of the other along the axis? Exact for small integers as used here.
 bool separates(const Point3& axis, const std::vector<Point3>& s, const std::vector<Point3>& t) {
   const auto range = [&](const std::vector<Point3>& points) {
     double low = dot(axis, points[0]), high = low;
@@ -96,7 +96,7 @@ TEST(PlcIntersections, SegmentsMeetTrianglesAndSegmentsIfNoAxisSeparatesThem) {
   }
 }
 
-// The tips at the common corner, a hundredth of each triangle's length, are cut off. What still meets, meets elsewhere.
+// Cuts off a hundredth of each triangle at the common corner. If the rest still meets, the triangles meet elsewhere.
 TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutTheirTips) {
   std::mt19937 random(5);
   int meeting = 0;
@@ -106,7 +106,8 @@ TEST(PlcIntersections, TrianglesWithACommonCornerMeetElsewhereIfTheyDoWithoutThe
     if (collinear(t[0], t[1], t[2])) continue;
     const bool shared_twice = s[1] == t[1] || s[1] == t[2] || s[2] == t[1] || s[2] == t[2];
     if (shared_twice) continue;
-    // Scaled by a hundred, cutting off the tips leaves integers. What meets beyond the corner reaches an opposite edge.
+    // Scaled by a hundred, the cut triangles have integer corners. A meeting beyond the corner reaches an opposite
+    // edge.
     std::vector<Point3> s_cut, t_cut;
     const auto cut = [](const Triangle& u, std::vector<Point3>& points) {
       for (int k : {1, 2}) points.push_back(100 * u[k]);

@@ -29,7 +29,7 @@ TEST(PlcParts, RealSurfacesAreValidAndKeepTheirVolume) {
     EXPECT_EQ(plc.triangles.size(), input.triangles.size());
     EXPECT_EQ(plc.vertices.size(), input.vertices.size());
     EXPECT_GE(inside_count(plc), 1u);
-    // These surfaces are oriented outwards, and their components are not nested.
+    // These surfaces are oriented outward, and their components are not nested.
     EXPECT_NEAR(inside_volume(plc), surface_volume(input), 1e-6 * std::abs(surface_volume(input)));
     EXPECT_LT(grazeable_count(plc), plc.segments.size());
     for (const plc::Facet& f : plc.facets) EXPECT_NE(plc.regions[f.above].inside, plc.regions[f.below].inside);

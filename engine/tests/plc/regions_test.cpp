@@ -170,7 +170,7 @@ TEST(PlcRegions, ADanglingFacetHasTheSameRegionOnBothSides) {
 TEST(PlcRegions, DanglingSegmentsAreGrazeableInsideOnly) {
   plc::InputPlc input = unit_cube();
   input.vertices.insert(input.vertices.end(), {{0.2, 0.3, 0.4}, {0.6, 0.7, 0.5}, {1.5, 0.5, 0.5}});
-  input.segments = {{8, 9}, {0, 8}, {7, 10}};  // within; from a corner inwards; from a corner outwards
+  input.segments = {{8, 9}, {0, 8}, {7, 10}};  // within; from a corner inward; from a corner outward
   input.segment_markers = {1, 2, 3};
   const plc::Plc plc = plc::build_plc(input);
   ASSERT_EQ(plc.segments.size(), 15u);

@@ -10,8 +10,8 @@
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/warped_facets.h"
 #include "engine/protection/protect_edges.h"
 #include "engine/tests/shared/mesh_checks.h"
 #include "engine/tests/shared/mesh_test_solids.h"
@@ -168,7 +168,7 @@ TEST(Protection, OfSegmentsThatAreNotQuiteParallelEnds) {
 
 TEST(Protection, OfALongEdgeWithFeetNextToItsEndsEnds) {
   const InputPlc stack = stack_of_thin_plates();
-  const plc::Plc plc = plc::build_plc(plc::triangulate_bent_facets(stack).value_or(stack));
+  const plc::Plc plc = plc::build_plc(plc::triangulate_warped_facets(stack).value_or(stack));
   const auto [delaunay, chains, grazeable] = protection::protect_edges(
       plc, protection::unprotected(plc, delaunay::build_delaunay(plc.vertices)), Protection::shell);
   EXPECT_LT(delaunay.vertices.size() - plc.vertices.size(), 1000u);

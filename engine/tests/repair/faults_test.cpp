@@ -6,8 +6,8 @@
 #include <random>
 
 #include "engine/base/errors.h"
-#include "engine/plc/bent_facets.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/warped_facets.h"
 #include "engine/repair/find_faults.h"
 #include "engine/tests/repair/repair_cases.h"
 
@@ -190,7 +190,7 @@ TEST(Faults, AnInputIsValidExactlyIfThePlcIs) {
     const plc::InputPlc input = damaged_solid(random);
     bool is_plc = true;
     try {
-      plc::build_plc(plc::triangulate_bent_facets(input).value_or(input));
+      plc::build_plc(plc::triangulate_warped_facets(input).value_or(input));
     } catch (const InputError&) {
       is_plc = false;
     }

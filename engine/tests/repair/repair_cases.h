@@ -9,14 +9,14 @@
 
 namespace ccdt::plc_test {
 
-/// Makes one vertex of those at the same place.
+/// Merges vertices at the same place.
 inline void merge_equal_vertices(plc::InputPlc& plc) {
   for (auto& corners : plc.triangles)
     for (std::uint32_t& v : corners)
       v = static_cast<std::uint32_t>(std::ranges::find(plc.vertices, plc.vertices[v]) - plc.vertices.begin());
 }
 
-/// The vertices of each triangle are its own, as in an STL.
+/// Gives each triangle its own vertices, as in an STL file.
 inline void separate_triangles(plc::InputPlc& plc) {
   std::vector<Point3> vertices;
   for (auto& corners : plc.triangles)

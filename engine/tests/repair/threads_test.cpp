@@ -14,7 +14,7 @@ namespace {
 
 using namespace plc_test;
 
-/// Two spheres through each other, of which one has holes and separate, shaken triangles.
+/// Two spheres through each other. One has holes and separate, shaken triangles.
 plc::InputPlc broken_spheres() {
   plc::InputPlc input = models::make_solid("sphere", 0.06);
   input.triangle_markers.clear();

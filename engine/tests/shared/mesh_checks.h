@@ -21,8 +21,8 @@ void expect_right(const InputPlc& input, const TetMesh& mesh, const verify::Veri
 /// The same, and the mesh claims to be constrained Delaunay.
 void expect_verified(const InputPlc& input, const TetMesh& mesh);
 
-/// Meshes with one lattice, verifies, and expects the very same tetrahedra without the face protection check, with all
-/// Steiner vertices and with those that are needed.
+/// Meshes with one lattice and verifies the mesh. Expects the very same tetrahedra without the face protection check,
+/// both with all Steiner vertices and with only the necessary ones.
 ///
 /// \return  the result with the check and all Steiner vertices
 MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection protection = Protection::shell);
@@ -30,9 +30,9 @@ MeshResult expect_agreement(const InputPlc& input, Lattice lattice, Protection p
 /// The same with every lattice and both protections.
 void expect_agreement_of_all_strategies(const InputPlc& input);
 
-/// Brute force by CGAL's exact kernel: a vertex strictly inside the circumsphere of a tetrahedron is hidden by a facet
-/// from every point inside it that is tried (`seed` chooses them). Only for small meshes, of facets that are exactly
-/// flat.
+/// Brute force with CGAL's exact kernel: if a vertex is strictly inside the circumsphere of a tetrahedron, a facet
+/// hides it from every tested point inside the tetrahedron (`seed` chooses the points). Only for small meshes whose
+/// facets are exactly flat.
 void expect_constrained_delaunay(const TetMesh& mesh, unsigned seed);
 
 }  // namespace ccdt::mesh_test

@@ -32,7 +32,7 @@ inline void append_fan(plc::InputPlc& plc, const std::vector<std::uint32_t>& cor
   for (std::size_t i = 2; i < corners.size(); ++i) plc.triangles.push_back({corners[0], corners[i - 1], corners[i]});
 }
 
-/// An axis-parallel box of 12 triangles, its vertices numbered x + 2y + 4z, oriented outwards.
+/// An axis-parallel box of 12 triangles, oriented outward. Its vertices are numbered x + 2y + 4z.
 inline plc::InputPlc box(const Point3& low, const Point3& high) {
   plc::InputPlc plc;
   plc.name = "box";
@@ -158,8 +158,8 @@ inline std::size_t inside_count(const plc::Plc& plc) {
   return n;
 }
 
-/// The volume of a region in the units of the input, by the divergence theorem over its facets; infinite ones come out
-/// negative.
+/// The volume of a region in the units of the input, by the divergence theorem over its facets; negative for an
+/// infinite region.
 inline double volume(const plc::Plc& plc, std::uint32_t region) {
   double sixfold = 0;
   for (const plc::Facet& f : plc.facets) {

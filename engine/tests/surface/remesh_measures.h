@@ -9,7 +9,7 @@
 
 #include "engine/tests/shared/plc_test_solids.h"
 
-/// What tests of remeshing compare.
+/// Measures of surfaces that the tests of remeshing compare.
 namespace ccdt::remesh_test {
 
 inline double distance(const Point3& a, const Point3& b) {
@@ -51,15 +51,15 @@ inline std::map<Edge, std::vector<std::uint32_t>> triangles_at_edges(const Input
   return around;
 }
 
-/// The length of edges that do not have just two triangles, by how many they have.
-inline std::map<std::size_t, double> odd_edge_lengths(const InputPlc& plc) {
+/// The total length of the edges with n triangles, for each n other than 2.
+inline std::map<std::size_t, double> non_manifold_edge_lengths(const InputPlc& plc) {
   std::map<std::size_t, double> sums;
   for (const auto& [edge, triangles] : triangles_at_edges(plc))
     if (triangles.size() != 2) sums[triangles.size()] += distance(plc.vertices[edge[0]], plc.vertices[edge[1]]);
   return sums;
 }
 
-/// The length of edges whose two triangles, oriented alike, turn by more than an angle.
+/// The total length of the edges where two consistently oriented triangles turn by more than an angle.
 inline double sharp_length(const InputPlc& plc, double degrees) {
   const auto normal = [&](std::uint32_t t) {
     const auto& [a, b, c] = plc.triangles[t];
@@ -74,7 +74,7 @@ inline double sharp_length(const InputPlc& plc, double degrees) {
   return sum;
 }
 
-/// The share of edges between 0.7 and 1.4 of a length.
+/// The share of edges with 0.7 to 1.4 times a given length.
 inline double share_of_good_edges(const InputPlc& plc, double length) {
   double good = 0, all = 0;
   for (const auto& [edge, triangles] : triangles_at_edges(plc)) {
@@ -114,7 +114,7 @@ inline double mean_edge_length(const InputPlc& plc) {
   return sum / static_cast<double>(edges.size());
 }
 
-/// The volume of each region; what has no region counts as region 0.
+/// The volume of each region; space without a region counts as region 0.
 inline std::map<int, double> region_volumes(const plc::Plc& plc) {
   std::map<int, double> sums;
   for (std::uint32_t c = 0; c < plc.regions.size(); ++c)

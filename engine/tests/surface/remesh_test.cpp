@@ -66,7 +66,7 @@ InputPlc slotted_plate(int slots) {
 /// For flat facets: everything but the triangles stays the same, up to rounding.
 void expect_same_shape(const InputPlc& before, const InputPlc& after) {
   expect_near(areas(before), areas(after), 1e-9);
-  expect_near(odd_edge_lengths(before), odd_edge_lengths(after), 1e-9);
+  expect_near(non_manifold_edge_lengths(before), non_manifold_edge_lengths(after), 1e-9);
   expect_near(segment_lengths(before), segment_lengths(after), 1e-9);
   const plc::Plc a = plc::build_plc(before), b = plc::build_plc(after);
   EXPECT_EQ(a.regions.size(), b.regions.size());
@@ -278,7 +278,7 @@ TEST(Remeshing, EdgesAlongAStripFitItsWidth) {
   EXPECT_GE(smallest_angles(result).front(), 30);
 }
 
-/// The worst r (paper, section 6) of the tetrahedra that the mesher makes of a surface.
+/// The worst r (paper, section 6) of the tetrahedra that the mesher makes from a surface.
 double worst_r(const InputPlc& surface, double edge_length) {
   MeshOptions options;
   options.edge_length = edge_length;
@@ -362,8 +362,8 @@ TEST(Remeshing, RejectsOptionsOutOfRange) {
   EXPECT_THROW(remeshed(unit_cube(), std::nan("")), InputError);
 }
 
-/// A cube of six polygons with one corner moved, so that three of them are bent.
-InputPlc bent_cube() {
+/// A cube of six polygons with one corner moved, so that three of them are warped.
+InputPlc warped_cube() {
   InputPlc cube;
   cube.vertices = plc_test::unit_cube().vertices;
   cube.vertices.back() = {1.1, 1.2, 1.4};
@@ -409,11 +409,11 @@ TEST(SurfaceRule, RemeshUsesTheSharpAngle) {
   EXPECT_NE(with_edges.mesh.vertices, mesh_plc(cube, options).mesh.vertices);
 }
 
-TEST(PreparedSurface, HasTheBentPolygonsOfTheInputAndItsFacetsBeforeRemeshing) {
+TEST(PreparedSurface, HasTheWarpedPolygonsOfTheInputAndItsFacetsBeforeRemeshing) {
   for (const SurfaceRule rule : {SurfaceRule::keep, SurfaceRule::remesh, SurfaceRule::refine}) {
-    const surface::PreparedSurface made = surface::prepare_surface(bent_cube(), rule, {.edge_length = 0.4});
+    const surface::PreparedSurface made = surface::prepare_surface(warped_cube(), rule, {.edge_length = 0.4});
     ASSERT_TRUE(made.changed);
-    EXPECT_EQ(made.changed->bent.count, 3u);
+    EXPECT_EQ(made.changed->warped.count, 3u);
     EXPECT_EQ(made.facets, 9u);
     EXPECT_EQ(made.changed->facet_count() > 9, rule == SurfaceRule::remesh);
     EXPECT_EQ(made.edge_length, 0.4);

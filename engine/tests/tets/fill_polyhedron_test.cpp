@@ -153,7 +153,7 @@ TEST(PolyhedronFiller, FillsMostRandomStars) {
   EXPECT_GT(filled, 150);
 }
 
-/// The quality of the best tetrahedron on a face, for the face where that is least.
+/// The least quality over all faces of the best tetrahedron on the face.
 double best_on_worst_face(const tets::CellComplex& x) {
   double least = 1;
   for (const auto& [a, b, c] : hull_of(x)) {
@@ -165,7 +165,7 @@ double best_on_worst_face(const tets::CellComplex& x) {
   return least;
 }
 
-// With its corners in another order, the same tetrahedron may look better by a rounding.
+// With its corners in another order, the same tetrahedron may look better because of rounding.
 TEST(PolyhedronFiller, DoesNotTakeARoundingForAnImprovement) {
   std::mt19937 random(1);
   for (int i = 0; i < 2000; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 using tets::Corner, tets::Sides, tets::VertexSides;
 
-/// Points of a grid of the given number of places in each direction. Few places make many coplanar.
+/// Random points of a grid with `places` positions in each direction. On a small grid, many points are coplanar.
 std::vector<Point3> random_points(std::size_t count, double places, std::mt19937& random) {
   std::uniform_real_distribution<double> place(0, places);
   std::vector<Point3> points;
@@ -49,7 +49,7 @@ TEST(VertexSides, ForgetThePointsBefore) {
 }
 
 TEST(VertexSides, KnowTheEdgesThatPassThroughATriangle) {
-  // Above and below the triangle of the first three: inside of it, on its border, and beside it.
+  // Points above and below the triangle of the first three: over its inside, over its border, and beside it.
   const std::vector<Point3> points = {{0, 0, 0}, {9, 0, 0},  {0, 9, 0}, {3, 3, 5}, {3, 3, -5},
                                       {3, 0, 5}, {3, 0, -5}, {8, 8, 5}, {8, 8, -5}};
   VertexSides sides;

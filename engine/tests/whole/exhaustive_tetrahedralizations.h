@@ -9,11 +9,11 @@
 
 namespace ccdt::test {
 
-/// A polyhedron, what else it must contain, and vertices in it.
+/// A polyhedron, which may contain further vertices and segments.
 struct Polyhedron {
   std::vector<Point3> vertices;                         ///< whole numbers
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of the surface, counterclockwise from outside
-  std::vector<std::array<std::uint32_t, 2>> segments;   ///< that must be edges, beside those of the surface
+  std::vector<std::array<std::uint32_t, 2>> segments;   ///< more edges that are required, besides those of the surface
 };
 
 /// No four vertices are in a plane, no five on a sphere.
@@ -24,9 +24,9 @@ struct Tetrahedralizations {
   std::size_t constrained_delaunay = 0;  ///< of these; 0 or 1 by the theory
 };
 
-/// Counts the ways to fill the polyhedron with tetrahedra whose corners are its vertices and which have all of these,
-/// by trying them all. A way is constrained Delaunay if all its inner faces are locally Delaunay (Shewchuk 2008, the
-/// Delaunay lemma for constrained tetrahedralizations). For a generic polyhedron of few vertices.
+/// Tries and counts all ways to fill a generic polyhedron of few vertices with tetrahedra on its vertices that use all
+/// of them. A way is constrained Delaunay if all its inner faces are locally Delaunay (Shewchuk 2008, the Delaunay
+/// lemma for constrained tetrahedralizations).
 Tetrahedralizations count_tetrahedralizations(const Polyhedron& polyhedron);
 
 }  // namespace ccdt::test

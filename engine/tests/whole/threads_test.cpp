@@ -229,7 +229,7 @@ TEST(Threads, MakeOneListOfFaces) {
   expect_one_mesh("TR12J", surface::remesh_surface(io::read_plc(part), {.edge_length = 19.51372113411484}), options);
 }
 
-/// With enough to improve that many changes are next to each other.
+/// Options with so much to improve that many changes are next to each other.
 MeshOptions hard_to_improve() {
   MeshOptions options;
   options.improve.target_dihedral = 35;

@@ -1,5 +1,4 @@
-// Loops of 10 ns to 10 s per iteration, on Google Benchmark. The variable SLOWER is how many times as much work each
-// does.
+// Loops of 10 ns to 10 s per iteration, on Google Benchmark. The variable SLOWER multiplies the work of each.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
@@ -7,7 +6,7 @@
 
 namespace {
 
-/// A chain of steps that wait for each other: nothing of it runs in parallel, and it touches no memory.
+/// A chain of steps that depend on each other: none of them run in parallel, and they touch no memory.
 std::uint64_t chain(std::int64_t steps) {
   std::uint64_t x = 88172645463325252U;
   for (std::int64_t i = 0; i < steps; ++i) x += x >> 1;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How much does the layout of a program change its speed, and what does `ccdt gate` make of it? An experiment.
 
-Parts, each of which continues what is there:
+Each part continues an earlier call:
   measure    links layouts of one source, runs them in turns, and writes layouts.json and layouts.md
   resample   simulates gates from these times, and writes resample.json and resample.md
   gates      runs gates of two builds, and gates that rebuild them, and writes gates.json and gates.md
@@ -157,7 +157,7 @@ def arguments_of(words):
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=float("inf"), help="stop after this time, with a table")
     parser.add_argument("--build", type=Path, default=Path("build/release"),
-                        help="build folder of which `ccdt` is linked anew; it is only read")
+                        help="build folder whose objects are linked again to `ccdt`; it is only read")
     parser.add_argument("--flags", type=shlex.split, default=[], metavar="WORDS",
                         help="more flags for the compiler of the kernels")
     parser.add_argument("--min-time", type=float, default=0.02, help="seconds of each benchmark in measure")

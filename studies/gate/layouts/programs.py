@@ -116,11 +116,11 @@ class Kernels(Program):
 
 
 class Ccdt(Program):
-    """The program of this repository, linked anew out of the objects of a build, which is only read."""
+    """The program of this repository, linked again from the objects of a build. The build itself is not changed."""
 
     name = "ccdt"
     figure = "`seconds.mesh`"
-    # A model and its edge length each; 10 to 60 ms on one thread.
+    # Models with their edge lengths. Each takes 10 to 60 ms on one thread.
     models = [("bracket", 6), ("bracket", 8), ("piston", 8), ("piston", 10), ("stepping-pole", 8),
               ("rough-sphere", 0.2), ("torus", 0.15), ("sphere", 0.15), ("cube", 0.1), ("graded-cube", 0.25)]
     cases = tasks = [f"{model}-{edge_length}" for model, edge_length in models]
@@ -170,7 +170,7 @@ class Ccdt(Program):
 
     @staticmethod
     def extract(archive, place, name):
-        """Members may have the same name."""
+        """Extracts all members of an archive, even if several have the same name."""
         seen = {}
         for member in run("ar", "t", archive, capture_output=True, text=True).stdout.split():
             seen[member] = seen.get(member, 0) + 1

@@ -1,4 +1,4 @@
-"""How much of the spread of log times lies between layouts: one-way random effects, with trimmed means."""
+"""How much of the spread of log times is due to layouts: one-way random effects, with trimmed means."""
 
 import functools
 import math
@@ -8,7 +8,7 @@ TRIMMED = 0.2  # share at each end, as in the gate
 
 
 def _continued_fraction(a, b, x):
-    """For the incomplete beta function; Lentz's method (Press et al. 2007, section 6.4)."""
+    """The continued fraction of the incomplete beta function, by Lentz's method (Press et al. 2007, section 6.4)."""
     tiny = 1e-300
     c, d = 1.0, 1 / max(1 - (a + b) * x / (a + 1), tiny)
     result = d
@@ -24,7 +24,7 @@ def _continued_fraction(a, b, x):
 
 
 def incomplete_beta(a, b, x):
-    """Regularized."""
+    """The regularized incomplete beta function."""
     if x <= 0 or x >= 1:
         return float(x >= 1)
     front = math.exp(math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b) + a * math.log(x) + b * math.log1p(-x))
@@ -34,7 +34,7 @@ def incomplete_beta(a, b, x):
 
 
 def _quantile(distribution, p):
-    """The value at which a distribution of positive numbers reaches p."""
+    """The value at which the distribution function of a positive variable reaches p."""
     high = 1.0
     while distribution(high) < p:
         high *= 2
@@ -46,18 +46,18 @@ def _quantile(distribution, p):
 
 
 def f_quantile(p, between, within):
-    """Of the F distribution with these degrees of freedom."""
+    """The p-quantile of the F distribution with these degrees of freedom."""
     return _quantile(lambda f: incomplete_beta(between / 2, within / 2, between * f / (between * f + within)), p)
 
 
 def chi_squared_quantile(p, freedom):
-    # Of F with very many degrees of freedom below the fraction line; right to seven digits.
+    # From the F distribution with very many degrees of freedom in the denominator; correct to seven digits.
     return freedom * f_quantile(p, freedom, 1e9)
 
 
 @functools.cache
 def t_quantile(p, freedom):
-    """For p above 1/2."""
+    """The p-quantile of Student's t distribution, for p above 1/2."""
     return math.sqrt(f_quantile(2 * p - 1, 1, freedom))
 
 
@@ -86,9 +86,9 @@ def t_interval(values, confidence):
 
 
 def random_effects(groups, confidence=0.95):
-    """Standard deviations of groups of equal size: between them, with an interval (Williams 1962), and in one group.
+    """Standard deviations of groups of equal size: between groups, with an interval (Williams 1962), and within one.
 
-    Instead of the means and their variances it takes the trimmed ones, since few runs are much slower than the others.
+    Trimmed means and their variances are used, because a few runs are much slower than the others.
     """
     means = [trimmed_mean(group) for group in groups]
     variance, noise = statistics.variance(means), statistics.fmean(trimmed_variance(group) for group in groups)
@@ -106,16 +106,19 @@ def random_effects(groups, confidence=0.95):
 
 
 def without_rounds(rows):
-    """Rows of a round each, with one value of each group: as groups, without what a whole round has in common."""
+    """Converts rows to groups, and removes what all values of a row have in common.
+
+    A row is one round and has one value of each group.
+    """
     shifts = [statistics.median(row) for row in rows]
     middle = statistics.median(shifts)
     return [[value - shift + middle for value, shift in zip(group, shifts)] for group in zip(*rows)]
 
 
 def without_noise_of_means(groups, noise=1.0):
-    """Groups whose trimmed means are as far apart as random effects say. The size of the noise may change.
+    """Moves the trimmed means of the groups to the spread that random effects estimate. `noise` scales the noise.
 
-    The means of few runs differ by chance too, which would look like an effect of layouts.
+    Otherwise the means, which come from few runs and so also differ by chance, would look like an effect of layouts.
     """
     means = [trimmed_mean(group) for group in groups]
     center = statistics.fmean(means)

@@ -8,12 +8,12 @@ import random_effects as effects
 
 THRESHOLD, LARGEST_NOISE, CONFIDENCE, AT_LEAST, AT_MOST = math.log(1.01), 0.02, 0.95, 20, 200  # the default rules
 LOOKS = 4  # by which the error of a screening is divided
-LAYOUT_ALARMS = 0.02  # share of gates with a false alarm because code lies elsewhere
+LAYOUT_ALARMS = 0.02  # share of gates with a false alarm because of layouts
 SLOWER = math.log(1.05)
 
 
 def layout_floor(sigma, cases):
-    """The log ratio by which layouts differ in at least one case in 2% of gates."""
+    """The log ratio that the difference of layouts exceeds in at least one case in 2% of gates."""
     return statistics.NormalDist().inv_cdf(1 - LAYOUT_ALARMS / cases) * math.sqrt(2) * sigma
 
 
@@ -27,7 +27,7 @@ class Layouts:
         self.random = random.Random(seed)
 
     def two(self):
-        """A layout of base and one of head: two of those that were measured, which stand for all there are."""
+        """A layout of the base and one of the head: two of the measured layouts, which represent all layouts."""
         return self.random.sample(range(self.count), 2)
 
     def ratios(self, case, two, count):
@@ -55,7 +55,7 @@ class Method:
 def interval(values, confidence, is_rebuilt):
     if is_rebuilt:
         return effects.t_interval(values, confidence)
-    # The normal one is close to the bootstrap of the gate.
+    # The normal interval is close to the bootstrap interval of the gate.
     half = statistics.NormalDist().inv_cdf((1 + confidence) / 2) * math.sqrt(effects.trimmed_variance(values))
     mean = effects.trimmed_mean(values)
     return mean - half, mean + half
@@ -91,7 +91,7 @@ class Gate:
         return "passed" if high <= threshold + LARGEST_NOISE else "undecided"
 
     def screen(self, case, slower):
-        """Its call, its estimate, and how many pairs it took."""
+        """The call of a case, its estimate, and the number of pairs."""
         pairs = self.method.first
         while True:
             low, high = self.look("screening", case, pairs, 1 - (1 - CONFIDENCE) / LOOKS, slower)
@@ -110,7 +110,7 @@ class Gate:
             pairs = self.method.next(pairs)
 
     def judge(self, slow_case=None):
-        """The calls of all cases, and the pairs of the case with most of them."""
+        """The calls of all cases, and the number of pairs of the case that has the most."""
         calls, suspects, screened, confirmed = {}, {}, 0, 0
         for case in self.layouts.cases:
             slower = SLOWER if case == slow_case else 0
@@ -125,7 +125,7 @@ class Gate:
 
 
 def simulate(layouts, method, gates):
-    """How many gates are worse and undecided, and how many find one slower case. Each case is slower in turn."""
+    """Counts the gates that are worse or undecided, and those that find a slower case. Each case is slower in turn."""
     counts = {"gates": gates, "worse": 0, "undecided": 0, "found": 0, "slow_undecided": 0, "pairs": [], "found_of": {}}
     for n in range(gates):
         gate = Gate(layouts, method)

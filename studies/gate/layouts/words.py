@@ -1,4 +1,4 @@
-"""Numbers as the tables have them."""
+"""Formats numbers for the tables."""
 
 import os
 import re

@@ -4,7 +4,7 @@
     engine/tests/io/foreign/make_files.py     with Debian's gmsh, python3-meshio and python3-vtk9
 
 All of them have the same mesh: two tetrahedra of the regions 7 and -8, two faces with the markers 5 and 6, and an edge
-with the marker 3; those of Gmsh have what Gmsh makes of corner.geo.
+with the marker 3. The files of Gmsh have the mesh that Gmsh makes from corner.geo.
 """
 import os
 import subprocess
@@ -55,7 +55,7 @@ def write_vtk():
         writer.SetEncodeAppendedData(mode == "base64")
         if compressed:
             writer.SetCompressorTypeToZLib()
-            writer.SetBlockSize(32)  # bytes: several blocks an array, the last one not whole
+            writer.SetBlockSize(32)  # bytes: an array has several blocks, and the last one is not full
         else:
             writer.SetCompressorTypeToNone()
         writer.SetByteOrderToBigEndian() if big else writer.SetByteOrderToLittleEndian()

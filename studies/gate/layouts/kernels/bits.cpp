@@ -1,4 +1,4 @@
-// A checksum, and bits that are counted and turned round.
+// A checksum, and functions that count and reverse bits.
 
 #include <benchmark/benchmark.h>
 

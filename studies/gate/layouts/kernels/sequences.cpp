@@ -34,7 +34,7 @@ void sort(benchmark::State& state) {
 }
 BENCHMARK(sort);
 
-/// Numbers, the least of which is on top.
+/// A heap of numbers with the smallest on top.
 class Heap {
  public:
   void push(unsigned value) {

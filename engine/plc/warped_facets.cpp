@@ -1,4 +1,4 @@
-#include "engine/plc/bent_facets.h"
+#include "engine/plc/warped_facets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,8 @@ double bend_between(const Point3& m, const Point3& n) {
 /// The triangulation of one polygon that bends least.
 ///
 /// The best triangulation of the part from corner i to corner j, given its triangle ikj at the diagonal ij, consists of
-/// that triangle and of the best of the parts i to k and k to j, given also the bend at the diagonals ik and kj.
+/// that triangle and of the best triangulations of the parts i to k and k to j, which include the bends at the
+/// diagonals ik and kj.
 class LeastBending {
  public:
   /// \param is_facet  is the triangle of three corners another facet of the input?
@@ -84,7 +85,7 @@ class LeastBending {
  private:
   std::size_t at(std::uint32_t i, std::uint32_t k, std::uint32_t j) const { return (std::size_t{i} * n_ + k) * n_ + j; }
 
-  /// The best of the part from i to j that has the triangle `beyond` on the other side of ij, and its corner there.
+  /// The best cost of the part from i to j, if the triangle `beyond` is on the other side of ij, and its corner there.
   std::pair<Cost, std::uint32_t> best_part(std::uint32_t i, std::uint32_t j, std::size_t beyond) const {
     if (j == i + 1) return {{}, i};
     auto [cost, apex] = best_apex(i, j, beyond);
@@ -115,16 +116,16 @@ class LeastBending {
   std::vector<Cost> own_, best_;
 };
 
-/// Replaces the bent facets of an input by triangles.
-class BentFacets {
+/// Replaces the warped facets of an input by triangles.
+class WarpedFacets {
  public:
-  explicit BentFacets(const InputPlc& input) : given_(input) {
+  explicit WarpedFacets(const InputPlc& input) : given_(input) {
     snap_vertices(input, plc_);
     tolerance_ = tolerance_of(plc_, PlcOptions{}.flatness);
   }
 
   std::optional<InputPlc> triangulate() {
-    const auto first = std::ranges::find_if(given_.polygon_facets, [&](const auto& facet) { return is_bent(facet); });
+    const auto first = std::ranges::find_if(given_.polygon_facets, [&](const auto& facet) { return is_warped(facet); });
     if (first == given_.polygon_facets.end()) return {};
     input_ = given_;
     input_.polygon_facets.clear();
@@ -132,12 +133,12 @@ class BentFacets {
     std::sort(triangles_.begin(), triangles_.end());
     InputPlc by_projection;
     for (const PolygonFacet& facet : given_.polygon_facets) {
-      if (!is_bent(facet)) {
+      if (!is_warped(facet)) {
         input_.polygon_facets.push_back(facet);
         continue;
       }
-      ++input_.bent.count;
-      input_.bent.largest_deviation = std::max(input_.bent.largest_deviation, deviation_of(facet) * plc_.grid.unit);
+      ++input_.warped.count;
+      input_.warped.largest_deviation = std::max(input_.warped.largest_deviation, deviation_of(facet) * plc_.grid.unit);
       const std::vector<std::uint32_t> corners = corners_of(facet.polygons[0]);
       if (is_one_loop(facet) && corners.size() <= most_corners)
         bend_least(corners, facet);
@@ -151,7 +152,7 @@ class BentFacets {
  private:
   static bool is_one_loop(const PolygonFacet& facet) { return facet.polygons.size() == 1 && facet.holes.empty(); }
 
-  bool is_bent(const PolygonFacet& facet) const {
+  bool is_warped(const PolygonFacet& facet) const {
     if (deviation_of(facet) <= tolerance_) return false;
     return !is_one_loop(facet) || !meets_a_vertex_twice(corners_of(facet.polygons[0]));
   }
@@ -163,7 +164,7 @@ class BentFacets {
     return points.size() < 4 ? 0 : find_plane(points).deviation;
   }
 
-  /// Those at different places.
+  /// The distinct corners.
   std::vector<std::uint32_t> corners_of(const std::vector<std::uint32_t>& polygon) const {
     std::vector<std::uint32_t> corners = polygon;
     const auto same = [&](std::uint32_t a, std::uint32_t b) {
@@ -230,7 +231,7 @@ class BentFacets {
   InputPlc input_;                  // the new one
   Plc plc_;                         // the vertices of both
   double tolerance_ = 0;            // in grid units
-  std::vector<FaceKey> triangles_;  // of the given one, sorted
+  std::vector<FaceKey> triangles_;  // of the given input, sorted
 };
 
 }  // namespace
@@ -256,9 +257,9 @@ FacetPlane find_plane(std::span<const Point3> points) {
   return plane;
 }
 
-std::optional<InputPlc> triangulate_bent_facets(const InputPlc& input) {
+std::optional<InputPlc> triangulate_warped_facets(const InputPlc& input) {
   if (input.polygon_facets.empty()) return {};
-  return BentFacets(input).triangulate();
+  return WarpedFacets(input).triangulate();
 }
 
 }  // namespace ccdt::plc

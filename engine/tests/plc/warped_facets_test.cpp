@@ -1,4 +1,4 @@
-#include "engine/plc/bent_facets.h"
+#include "engine/plc/warped_facets.h"
 
 #include <gtest/gtest.h>
 
@@ -32,8 +32,8 @@ Point3 unit_normal(const plc::InputPlc& plc, const Triangle& t) {
 }
 
 /// \return  whether there were any
-bool triangulate_bent_facets(plc::InputPlc& plc) {
-  auto triangulated = plc::triangulate_bent_facets(plc);
+bool triangulate_warped_facets(plc::InputPlc& plc) {
+  auto triangulated = plc::triangulate_warped_facets(plc);
   if (triangulated) plc = *triangulated;
   return triangulated.has_value();
 }
@@ -76,7 +76,7 @@ double projected_area(const plc::InputPlc& plc) {
   return sum;
 }
 
-TEST(BentFacets, NoTriangulationBendsLess) {
+TEST(WarpedFacets, NoTriangulationBendsLess) {
   std::mt19937 random(1);
   const auto noise = [&](double size) { return size * (static_cast<double>(random() % 2001) / 1000 - 1); };
   for (std::uint32_t i = 0; i < 40; ++i) {
@@ -88,36 +88,36 @@ TEST(BentFacets, NoTriangulationBendsLess) {
     plc::InputPlc plc = polygon(corners);
     double least = 10;
     for (const auto& triangles : all_triangulations(0, n - 1)) least = std::min(least, bend_of(plc, triangles));
-    triangulate_bent_facets(plc);
+    triangulate_warped_facets(plc);
     ASSERT_EQ(plc.triangles.size(), n - 2);
     EXPECT_NEAR(bend_of(plc, plc.triangles) / least, 1, 1e-3) << n << " corners";
   }
 }
 
-TEST(BentFacets, TheDeviationIsTheDistanceFromThePlaneInTheMiddle) {
+TEST(WarpedFacets, TheDeviationIsTheDistanceFromThePlaneInTheMiddle) {
   plc::InputPlc plc = polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 0.02}, {0, 1, 0}});
   plc.polygon_facets[0].marker = 7;
   plc.polygon_facets[0].number = 3;
-  triangulate_bent_facets(plc);
-  EXPECT_EQ(plc.bent.count, 1u);
-  EXPECT_NEAR(plc.bent.largest_deviation, 0.01, 1e-4);
+  triangulate_warped_facets(plc);
+  EXPECT_EQ(plc.warped.count, 1u);
+  EXPECT_NEAR(plc.warped.largest_deviation, 0.01, 1e-4);
   EXPECT_TRUE(plc.polygon_facets.empty());
   EXPECT_EQ(plc.triangle_markers, (std::vector<int>{7, 7}));
   EXPECT_EQ(plc.triangle_numbers, (std::vector<std::uint32_t>{3, 3}));
 }
 
-TEST(BentFacets, PolygonsThatAreFlatWithinTheToleranceStay) {
+TEST(WarpedFacets, PolygonsThatAreFlatWithinTheToleranceStay) {
   plc::InputPlc plc = polygon({{0, 0, 0}, {1, 0, 0}, {1, 1, 1e-8}, {0, 1, 0}});
-  EXPECT_FALSE(triangulate_bent_facets(plc));
+  EXPECT_FALSE(triangulate_warped_facets(plc));
 }
 
-TEST(BentFacets, APolygonWithTheSameCornersAsTwoTrianglesTakesTheOtherDiagonal) {
+TEST(WarpedFacets, APolygonWithTheSameCornersAsTwoTrianglesTakesTheOtherDiagonal) {
   plc::InputPlc plc = polygon({{0, 0, 0}, {3, 0, 0}, {3, 1, 0.5}, {0, 1, 0}});
-  triangulate_bent_facets(plc);
+  triangulate_warped_facets(plc);
   const std::vector<Triangle> alone = plc.triangles;
   plc = polygon(plc.vertices);
   plc.triangles = alone;
-  triangulate_bent_facets(plc);
+  triangulate_warped_facets(plc);
   ASSERT_EQ(plc.triangles.size(), 4u);
   std::set<FaceKey> different;
   for (const auto& [a, b, c] : plc.triangles) different.insert(face_key(a, b, c));
@@ -125,7 +125,7 @@ TEST(BentFacets, APolygonWithTheSameCornersAsTwoTrianglesTakesTheOtherDiagonal) 
   EXPECT_EQ(plc::build_plc(plc).facets.size(), 4u);
 }
 
-TEST(BentFacets, ConcavePolygonsWithStraightSidesDoNotFold) {
+TEST(WarpedFacets, ConcavePolygonsWithStraightSidesDoNotFold) {
   std::mt19937 random(2);
   for (int i = 0; i < 20; ++i) {
     std::vector<Point3> corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1.5, 1, 0},
@@ -133,20 +133,20 @@ TEST(BentFacets, ConcavePolygonsWithStraightSidesDoNotFold) {
     for (Point3& p : corners)
       for (double* x : {&p.x, &p.y, &p.z}) *x += 1e-6 * (static_cast<double>(random() % 2001) / 1000 - 1);
     plc::InputPlc plc = polygon(corners);
-    triangulate_bent_facets(plc);
+    triangulate_warped_facets(plc);
     ASSERT_EQ(plc.triangles.size(), 8u);
     EXPECT_NEAR(projected_area(plc), 3, 1e-4);
     EXPECT_LT(bend_of(plc, plc.triangles), 1e-3);
   }
 }
 
-TEST(BentFacets, CornersAtTheSamePlaceAreOne) {
+TEST(WarpedFacets, CornersAtTheSamePlaceAreOne) {
   plc::InputPlc plc = polygon({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {1, 1, 0.1}, {0, 1, 0}, {0, 0, 0}});
-  triangulate_bent_facets(plc);
+  triangulate_warped_facets(plc);
   EXPECT_EQ(plc.triangles.size(), 2u);
 }
 
-TEST(BentFacets, ManyCornersAndHolesAreTriangulatedToo) {
+TEST(WarpedFacets, ManyCornersAndHolesAreTriangulatedToo) {
   plc::InputPlc plc;
   for (const double radius : {2.0, 1.0})
     for (int k = 0; k < 100; ++k)
@@ -158,21 +158,21 @@ TEST(BentFacets, ManyCornersAndHolesAreTriangulatedToo) {
   plc.polygon_facets[0].polygons = {outer, inner};
   plc.polygon_facets[0].holes = {{0, 0, 0}};
   plc.polygon_facets[1].polygons = {inner};
-  triangulate_bent_facets(plc);
-  EXPECT_EQ(plc.bent.count, 2u);
+  triangulate_warped_facets(plc);
+  EXPECT_EQ(plc.warped.count, 2u);
   EXPECT_EQ(plc.triangles.size(), 200u + 98u);
   EXPECT_NEAR(projected_area(plc), 4 * portable::pi, 0.01);
 }
 
-TEST(BentFacets, ABoxWithOneCornerMovedIsAClosedSurface) {
+TEST(WarpedFacets, ABoxWithOneCornerMovedIsAClosedSurface) {
   plc::InputPlc plc;
   plc.vertices = box({0, 0, 0}, {1, 1, 1}).vertices;
   plc.vertices[7] = {1.1, 1.1, 1.2};
   for (const Polygon& q :
        std::vector<Polygon>{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
     plc.polygon_facets.push_back({{q}, {}, 0, static_cast<std::uint32_t>(plc.polygon_facets.size())});
-  triangulate_bent_facets(plc);
-  EXPECT_EQ(plc.bent.count, 3u);
+  triangulate_warped_facets(plc);
+  EXPECT_EQ(plc.warped.count, 3u);
   EXPECT_EQ(plc.polygon_facets.size(), 3u);
   const plc::Plc built = plc::build_plc(plc);
   EXPECT_EQ(built.facets.size(), 9u);

@@ -25,14 +25,14 @@ FacetPlane find_plane(std::span<const Point3> points);
 /// A polygon of up to 64 corners is triangulated so that it bends least: the largest angle between the normals of
 /// neighboring triangles is the smallest possible, found by dynamic programming (as for filling holes: Barequet &
 /// Sharir 1995, Liepa 2003; here the search is complete). Triangles that are folded over, seen along the facet's
-/// normal, or that are another facet of the input count as worse than any bend; among equals, the shortest diagonals
-/// win. Larger polygons and facets of several polygons get the constrained Delaunay triangulation seen along their
-/// normal.
+/// normal, or that equal another facet of the input count as worse than any bend; among equals, the shortest diagonals
+/// win. Larger polygons and facets of several polygons get the constrained Delaunay triangulation of their projection
+/// along the normal.
 ///
 /// A polygon that meets one vertex twice is left as it is.
 ///
-/// \return nothing if no facet had to be replaced; otherwise the new input, with updated `bent`
+/// \return nothing if no facet had to be replaced; otherwise the new input, with updated `warped`
 /// \throw InputError  a coordinate that is not finite; edges of a large facet cross each other
-std::optional<InputPlc> triangulate_bent_facets(const InputPlc& input);
+std::optional<InputPlc> triangulate_warped_facets(const InputPlc& input);
 
 }  // namespace ccdt::plc
