@@ -55,7 +55,7 @@ std::vector<int> divisions_of(const DensitySeries& series, double wanted) {
   return divisions;
 }
 
-using DensitySeries = std::span<const DensityRow>;
+using MeasuredSeries = std::span<const DensityRow>;
 
 struct FrontWork {
   const char* name;
@@ -75,7 +75,7 @@ double tetrahedra_of(const DensityRow& row) {
 
 /// The growth of a count in a series.
 struct DensityFit : Fit {
-  DensitySeries series;
+  MeasuredSeries series;
 };
 std::vector<std::string> runs_of(const DensityFit& fit) {
   return all_runs_of(fit.series);
@@ -110,7 +110,7 @@ const RowColumns<DensityRow> density_point_columns = {
     per_tetrahedron("grid_cells", "grid cells, per tetrahedron", front_works[2]),
     reason_column()};
 
-void add_fit(DensitySeries series, const FrontWork& work, std::vector<DensityFit>& fits) {
+void add_fit(MeasuredSeries series, const FrontWork& work, std::vector<DensityFit>& fits) {
   std::vector<double> sizes, counts;
   for (const DensityRow& row : series) {
     if (!row.ok()) continue;
@@ -150,7 +150,7 @@ void plan_series(const ExperimentOptions& options, const DensitySeries& series, 
 ExperimentResult density_result(std::span<const DensityRow> rows) {
   ExperimentResult result{.how = once(), .definitions = density_definitions};
   std::vector<DensityFit> fits;
-  for (const DensitySeries series : neighbors(rows, [](const DensityRow&a, const DensityRow&b) {
+  for (const MeasuredSeries series : neighbors(rows, [](const DensityRow&a, const DensityRow&b) {
          return a.density == b.density && a.locator == b.locator;
        }))
     for (const FrontWork& work : front_works) add_fit(series, work, fits);
