@@ -18,7 +18,7 @@ namespace ccdt {
 class SharedUnionFind {
  public:
   explicit SharedUnionFind(std::size_t n) : parent_(n) {
-    parallel_for(n, grain, [&](std::size_t i) { parent_[i] = static_cast<std::uint32_t>(i); });
+    parallel_for(n, 4096, [&](std::size_t i) { parent_[i] = static_cast<std::uint32_t>(i); });
   }
 
   std::uint32_t find(std::uint32_t i) {
@@ -28,15 +28,6 @@ class SharedUnionFind {
       i = above;
     }
     return i;
-  }
-
-  /// The representative of each i. A parent is never greater than its child, so most are found in one step.
-  RawVector<std::uint32_t> take_representatives() && {
-    parallel_for(parent_.size(), grain, [&](std::size_t i) {
-      const auto member = static_cast<std::uint32_t>(i);
-      at(member).store(find(member), std::memory_order_relaxed);
-    });
-    return std::move(parent_);
   }
 
   /// \return  the representative of both, unless another thread joins them with a third set
@@ -58,8 +49,6 @@ class SharedUnionFind {
  private:
   std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
   std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
-
-  static constexpr std::size_t grain = 4096;  ///< of loops on several threads
 
   RawVector<std::uint32_t> parent_;
   const bool is_alone_ = thread_count() == 1;  ///< a single thread does not pay for atomic joins

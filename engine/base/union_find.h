@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 namespace ccdt {
@@ -16,12 +15,6 @@ class UnionFind {
   std::uint32_t find(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
-  }
-
-  /// The representative of each i. A parent is never greater than its child, so one pass finds all.
-  std::vector<std::uint32_t> take_representatives() && {
-    for (std::uint32_t& parent : parent_) parent = parent_[parent];
-    return std::move(parent_);
   }
 
   std::size_t bytes() const { return parent_.size() * sizeof(parent_[0]); }

@@ -339,15 +339,13 @@ void keep_triangles(std::span<const char> is_kept, TriangleSet& triangles) {
   triangles = std::move(kept);
 }
 
-std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
+void drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
   std::vector<char> has_area(triangles.size());
   parallel_for(triangles.size(), 4096, [&](std::size_t t) {
     const auto [a, b, c] = triangles.corners[t];
     has_area[t] = a != b && b != c && c != a && !has_no_area(points_of(vertices, triangles.corners[t]));
   });
-  const auto dropped = static_cast<std::uint32_t>(std::ranges::count(has_area, 0));
-  if (dropped > 0) keep_triangles(has_area, triangles);
-  return dropped;
+  if (std::ranges::find(has_area, 0) != has_area.end()) keep_triangles(has_area, triangles);
 }
 
 namespace {

@@ -98,14 +98,14 @@ void divide_segments(const EdgeChains& chains, plc::SegmentSet& segments) {
 
 }  // namespace
 
-std::size_t cut_along(VertexCuts cuts, plc::UncheckedPlc& soup) {
+void cut_along(VertexCuts cuts, plc::UncheckedPlc& soup) {
   for (std::size_t attempt = 1;; ++attempt) {
     const EdgeChains chains(soup.plc.vertices, cuts.on_edges);
     const Parts parts = cut_triangles(soup, cuts, chains);
     if (attempt < most_attempts && add_vertices_of_edges(soup.triangles, parts, cuts)) continue;
     replace_triangles(parts, soup.triangles);
     divide_segments(chains, soup.segments);
-    return parts.triangles.size();
+    return;
   }
 }
 
