@@ -151,6 +151,18 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
   return all;
 }
 
+/// The indices below `count` for which `holds(i)` is true, in increasing order.
+///
+/// \param length  of the ranges of `parallel_collect`
+template <class Holds>
+std::vector<std::uint32_t> parallel_select(std::size_t count, std::size_t length, const Holds& holds) {
+  return parallel_collect<std::uint32_t>(count, length,
+                                         [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
+                                           for (; i < end; ++i)
+                                             if (holds(i)) found.push_back(static_cast<std::uint32_t>(i));
+                                         });
+}
+
 /// Adds one to numbers that all threads of the following loops add to. Make it before these loops, not in them. A
 /// single thread does not pay for atomic operations.
 class AddOne {
