@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/parallel.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/contacts.h"
 
@@ -27,15 +28,10 @@ std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const 
     const auto& [a, b, c] = facets.triangles[face];
     return bounding_box(std::array{d.point(a), d.point(b), d.point(c)});
   };
-  std::vector<std::uint32_t> missing;
-  RawVector<Box> boxes;
-  for (std::uint32_t i = 0; i < codes.size(); ++i) {
-    if (codes[i] != delaunay::no_neighbor) continue;
-    missing.push_back(i);
-    boxes.push_back(box_of_face(i));
-  }
+  const std::vector<std::uint32_t> missing =
+      parallel_select(codes.size(), 4096, [&](std::size_t i) { return codes[i] == delaunay::no_neighbor; });
   if (missing.empty()) return {};
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(missing, box_of_face);
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < facets.triangles.size(); ++i) {
     const FacetOrigin& one = origins[facets.facet[i]];

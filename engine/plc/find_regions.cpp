@@ -284,7 +284,7 @@ RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& pa
   constexpr std::size_t few_rays = 3;
   std::size_t searches = 2 * (input.holes.size() + input.regions.size()) + parts.match.loose.size();
   for (std::uint32_t t = 0; t < parts.triangles.size(); ++t) searches += components.find(t) == t;
-  if (!tree && searches > few_rays) tree.emplace(boxes_of(plc.vertices, parts.triangles));
+  if (!tree && searches > few_rays) tree = tree_of(plc.vertices, parts.triangles);
   const VerticalRays rays(plc.vertices, parts.triangles, tree);
   RegionMap map = divide_space(parts.triangles, plc.vertices, sides, components, rays);
   mark_inside(input, plc, parts.triangles, parts.edges, rays, map);

@@ -378,7 +378,7 @@ std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3>
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const VertexId v(i);
     if (is_corner[i]) continue;
-    if (!tree) tree.emplace(boxes_of(vertices, triangles));
+    if (!tree) tree = tree_of(vertices, triangles);
     tree->for_each_meeting(box_of(vertices[i]), [&](std::uint32_t t) { test({&v, 1}, t, found); });
   }
   std::ranges::sort(found);
@@ -412,9 +412,8 @@ bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<con
 
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments) {
   if (segments.ends.empty()) return;
-  RawVector<Box> boxes;
-  for (const auto& [a, b] : segments.ends) boxes.push_back(hull(box_of(vertices[a]), box_of(vertices[b])));
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(segments.ends,
+                     [&](const auto& ends) { return hull(box_of(vertices[ends[0]]), box_of(vertices[ends[1]])); });
   std::vector<std::pair<std::uint32_t, VertexId>> found;  // segment and a vertex on it
   for (std::uint32_t i = 0; i < vertices.size(); ++i)
     tree.for_each_meeting(box_of(vertices[i]), [&](std::uint32_t s) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -290,11 +289,8 @@ ClosestPoint::ClosestPoint(const OriginalSurface& surface)
     : surface_(surface),
       triangles_(group_indices(surface.patch_markers.size(), surface.triangles.size(),
                                [&](std::size_t t) { return surface.patch_of[t]; })) {
-  for (std::size_t patch = 0; patch < surface.patch_markers.size(); ++patch) {
-    RawVector<Box> boxes;
-    for (const std::uint32_t t : triangles_.of(patch)) boxes.push_back(bounding_box(surface.corners(t)));
-    trees_.emplace_back(std::move(boxes));
-  }
+  for (std::size_t patch = 0; patch < surface.patch_markers.size(); ++patch)
+    trees_.emplace_back(triangles_.of(patch), [&](std::uint32_t t) { return bounding_box(surface.corners(t)); });
 }
 
 Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {
