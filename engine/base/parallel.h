@@ -75,7 +75,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Work& work) {
   thread_backend::for_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
     Share& share = shares[thread_backend::thread_number()];
     share.has_worked = true;
-    const WorkElsewhere scope(share.work);
+    const WorkScope scope(share.work, true);
     work(begin, end);
   });
   for (const Share& share : shares) work_done += share.work;
