@@ -14,9 +14,7 @@
 #include "engine/base/errors.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/plc/build_plc.h"
-#include "engine/plc/edge_table.h"
-#include "engine/plc/find_facets.h"
-#include "engine/plc/find_overlaps.h"
+#include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/surface/working_mesh.h"
 
@@ -168,22 +166,12 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
     if (has_no_area(plc::points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
   if (!places.empty()) return places;
 
-  plc::EdgeTable edges = plc::make_edge_table(triangles.corners);
-  const plc::SegmentSet segments = plc::gather_segments(surface, plc);
-  const plc::SegmentMatch match = plc::match_segments(segments, edges);
-  const double tolerance = plc::tolerance_of(plc, flatness);
-  const std::vector<double> tolerances(triangles.size(), tolerance);
-  const plc::FacetPatches facets = plc::find_facets(plc.vertices, triangles, edges, match.segment_of, tolerances);
-  const auto add = [&](const plc::Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
-  for (const plc::Overlap& o :
-       plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges, most_places))
-    add(o);
   const std::vector<plc::TrianglePair> close = plc::find_close_triangles(plc.vertices, triangles);
-  for (const plc::Overlap& o : plc::find_overlaps(plc.vertices, triangles, facets, close, most_places)) add(o);
-  const BoxTree tree = plc::tree_of(plc.vertices, triangles);
-  for (const plc::Overlap& o :
-       plc::find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
-    add(o);
+  const plc::Overlaps overlaps =
+      plc::connect_parts(plc, std::move(triangles), plc::gather_segments(surface, plc), close, {flatness}, most_places)
+          .overlaps;
+  for (const auto* list : {&overlaps.covering, &overlaps.crossing, &overlaps.of_segments})
+    for (const plc::Overlap& o : *list) places.push_back(plc.grid.to_world(o.where));
   return places;
 }
 
