@@ -10,6 +10,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/flatness.h"
+#include "engine/base/hash_table.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
@@ -244,12 +245,7 @@ class FacetTriangulator {
 std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
   RawVector<KeyedIndex> keyed(points.size());
   parallel_for(points.size(), 4096, [&](std::size_t i) {
-    std::uint64_t hash = 0;
-    for (const std::int64_t x : to_integers(points[i])) {
-      hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
-      hash ^= hash >> 32;
-    }
-    keyed[i] = {hash, static_cast<std::uint32_t>(i)};
+    keyed[i] = {HashTraits<IntegerPoint>::hash(to_integers(points[i])), static_cast<std::uint32_t>(i)};
   });
   const std::vector<std::uint32_t> order = sorted_by_key(keyed);
   std::vector<std::uint32_t> first_equal(points.size());
