@@ -285,7 +285,7 @@ planar::Triangulation triangulate(const std::vector<planar::Point2>& points, con
     for (const auto& [a, b] : *part) edges.push_back({VertexId(a), VertexId(b)});
   }
   planar::Carving carving;
-  carving.outside = planar::Carving::Outside::nesting;
+  carving.nested = true;
   planar::TriangulationResult result = planar::triangulate(vertices, edges, planar::Points(points), carving);
   const auto is_kept = [&](const planar::Edge& e) {
     return planar::find_edge(result.triangulation, e[0], e[1]).has_value();

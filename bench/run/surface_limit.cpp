@@ -29,16 +29,13 @@ SurfaceLimit find_surface_limit(const mesh::TetMesh& mesh) {
     if (angle >= SurfaceLimit::bad_angle) continue;
     for (std::size_t i = 0; i < 3; ++i) edges_of_bad.set(edge_key(f[i], f[(i + 1) % 3]), 1);
   }
-  const auto bad = parallel_collect<std::size_t>(
-      mesh.tetrahedra.size(), 8192, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
-        for (; i < end; ++i) {
-          const auto& [a, b, c, d] = mesh.tetrahedra[i];
-          const std::array corners = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]};
-          if (!(shape_measure(corners) <= SurfaceLimit::bad_r)) found.push_back(i);
-        }
-      });
+  const auto bad = parallel_select(mesh.tetrahedra.size(), 8192, [&](std::size_t i) {
+    const auto& [a, b, c, d] = mesh.tetrahedra[i];
+    const std::array corners = {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[d]};
+    return !(shape_measure(corners) <= SurfaceLimit::bad_r);
+  });
   limit.bad_tetrahedra = bad.size();
-  for (const std::size_t number : bad) {
+  for (const std::uint32_t number : bad) {
     const auto& t = mesh.tetrahedra[number];
     bool is_at_bad = false;
     for (std::size_t i = 1; i < 4; ++i)

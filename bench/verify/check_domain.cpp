@@ -6,7 +6,7 @@
 #include <unordered_set>
 
 #include "bench/verify/findings.h"
-#include "engine/base/shared_union_find.h"
+#include "engine/base/union_find.h"
 
 namespace ccdt::verify {
 
@@ -83,7 +83,7 @@ void visit_matched_sides(const Regions& regions, const FacetMatches& matches, co
 bool assign_to_components(const Topology& topology, const Regions& regions, const FacetMatches& matches,
                           RegionsOfTetrahedra& assigned) {
   const std::size_t size = topology.mesh.tetrahedra.size();
-  SharedUnionFind components(size);
+  UnionFind components(size);
   parallel_for(topology.face_count(), chunk_length, [&](std::size_t f) {
     const auto [one, other] = topology.half_faces[f];
     if (other != none && !matches.is_matched[f]) components.join(one / 4, other / 4);

@@ -56,9 +56,7 @@ class CrossingTest {
 
 std::vector<std::array<std::uint32_t, 2>> find_crossings(const plc::InputPlc& surface) {
   const auto& triangles = surface.triangles;
-  RawVector<Box> boxes;
-  for (const Triangle& triangle : triangles) boxes.push_back(box_of(surface, triangle));
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(triangles, [&](const Triangle& triangle) { return box_of(surface, triangle); });
   const CrossingTest cross(surface);
   using Pairs = std::vector<std::array<std::uint32_t, 2>>;
   const auto found = parallel_chunks(triangles.size(), 4096, [&](std::size_t begin, std::size_t end) {

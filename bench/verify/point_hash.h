@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/base/hash_table.h"
 #include "engine/base/point.h"
 
 namespace ccdt::verify {
@@ -13,12 +15,8 @@ namespace ccdt::verify {
 struct PointHash {
   static constexpr Point3 none() { return {HUGE_VAL, HUGE_VAL, HUGE_VAL}; }
   static std::size_t hash(const Point3& p) {
-    std::uint64_t h = 0;
-    for (const double part : as_array(p)) {
-      h = (h ^ std::bit_cast<std::uint64_t>(part + 0.0)) * 0x9E3779B97F4A7C15u;
-      h ^= h >> 32;
-    }
-    return h;
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };
+    return HashTraits<std::array<std::uint64_t, 3>>::hash({bits(p.x), bits(p.y), bits(p.z)});
   }
 };
 

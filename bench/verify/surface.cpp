@@ -217,11 +217,8 @@ void add_piece(PolygonCell cell, int marker, std::uint32_t number, std::span<con
 void add_triangles(const plc::InputPlc& input, const Sites& sites, Pieces& pieces) {
   const auto site = [&](std::size_t i, std::size_t k) { return sites.of_input[input.triangles[i][k]]; };
   const auto at = [&](std::size_t i, std::size_t k) { return sites.position[site(i, k)]; };
-  const auto with_area = parallel_collect<std::uint32_t>(
-      input.triangles.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
-        for (; i < end; ++i)
-          if (!are_on_one_line(at(i, 0), at(i, 1), at(i, 2))) found.push_back(static_cast<std::uint32_t>(i));
-      });
+  const auto with_area = parallel_select(input.triangles.size(), chunk_length,
+                                         [&](std::size_t i) { return !are_on_one_line(at(i, 0), at(i, 1), at(i, 2)); });
   for (const std::uint32_t i : with_area)
     pieces.add(std::array<Edge, 3>{{{site(i, 0), site(i, 1)}, {site(i, 1), site(i, 2)}, {site(i, 2), site(i, 0)}}},
                input.triangle_markers.empty() ? 0 : input.triangle_markers[i],

@@ -15,10 +15,12 @@ inline constinit thread_local Work work_done;
 /// Adds the work of this thread during the life of the scope to a total, and to that of the enclosing scope.
 class WorkScope {
  public:
-  explicit WorkScope(Work& work) : work_(work), before_(work_done) { work_done = {}; }
+  /// \param elsewhere  the enclosing scope gets nothing, because the work belongs to a stage of another thread
+  explicit WorkScope(Work& work, bool elsewhere = false)
+      : work_(work), before_(std::exchange(work_done, {})), elsewhere_(elsewhere) {}
   ~WorkScope() {
     work_ += work_done;
-    before_ += work_done;
+    if (!elsewhere_) before_ += work_done;
     work_done = before_;
   }
   WorkScope(const WorkScope&) = delete;
@@ -27,20 +29,7 @@ class WorkScope {
  private:
   Work& work_;
   Work before_;
-};
-
-/// Adds the work of this thread during the life of the scope to a total, and not to that of the enclosing scope: for
-/// work that belongs to a stage of another thread.
-class WorkElsewhere {
- public:
-  explicit WorkElsewhere(Work& work) : work_(work), before_(std::exchange(work_done, {})) {}
-  ~WorkElsewhere() { work_ += std::exchange(work_done, before_); }
-  WorkElsewhere(const WorkElsewhere&) = delete;
-  WorkElsewhere& operator=(const WorkElsewhere&) = delete;
-
- private:
-  Work& work_;
-  Work before_;
+  bool elsewhere_;
 };
 
 /// The bytes of the elements of lists, without reserved memory.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -37,14 +38,21 @@ struct HashTraits<std::uint64_t> {
   static std::size_t hash(std::uint64_t key) { return (key ^ key >> 31) * 0x9E3779B97F4A7C15u >> 20; }
 };
 
-/// Faces, by `face_key`.
-template <>
-struct HashTraits<std::array<std::uint32_t, 3>> {
-  static constexpr std::array<std::uint32_t, 3> none() { return {ccdt::none, ccdt::none, ccdt::none}; }
-  static std::size_t hash(const std::array<std::uint32_t, 3>& key) {
-    std::uint64_t h = (std::uint64_t{key[0]} << 32 | key[1]) * 0x9E3779B97F4A7C15u ^ key[2] * 0xC2B2AE3D27D4EB4Fu;
-    h ^= h >> 29;
-    return h * 0x9E3779B97F4A7C15u >> 20;
+/// Faces, by `face_key`, points and other short lists of integers. The greatest integers never occur together.
+template <class Integer, std::size_t N>
+struct HashTraits<std::array<Integer, N>> {
+  static constexpr std::array<Integer, N> none() {
+    std::array<Integer, N> key{};
+    key.fill(std::numeric_limits<Integer>::max());
+    return key;
+  }
+  static std::size_t hash(const std::array<Integer, N>& key) {
+    std::uint64_t h = 0;
+    for (const Integer x : key) {  // numbers often end in zeros, so the high bits must be mixed into the low ones
+      h = (h ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
+      h ^= h >> 32;
+    }
+    return static_cast<std::size_t>(h);
   }
 };
 
@@ -53,8 +61,11 @@ constexpr bool is_same_key(const Key& a, const Key& b) {
   return a == b;
 }
 /// Without a call of memcmp.
-constexpr bool is_same_key(const std::array<std::uint32_t, 3>& a, const std::array<std::uint32_t, 3>& b) {
-  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+template <class Integer, std::size_t N>
+constexpr bool is_same_key(const std::array<Integer, N>& a, const std::array<Integer, N>& b) {
+  Integer difference = 0;
+  for (std::size_t i = 0; i < N; ++i) difference |= a[i] ^ b[i];
+  return difference == 0;
 }
 
 /// A hash table in one flat array: open addressing with linear probing. Entries move back when an earlier one is

@@ -75,7 +75,7 @@ void parallel_ranges(std::size_t count, std::size_t grain, const Work& work) {
   thread_backend::for_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
     Share& share = shares[thread_backend::thread_number()];
     share.has_worked = true;
-    const WorkElsewhere scope(share.work);
+    const WorkScope scope(share.work, true);
     work(begin, end);
   });
   for (const Share& share : shares) work_done += share.work;
@@ -149,6 +149,18 @@ std::vector<Item> parallel_collect(std::size_t count, std::size_t length, const 
   all.reserve(size);
   for (const std::vector<Item>& part : parts) all.insert(all.end(), part.begin(), part.end());
   return all;
+}
+
+/// The indices below `count` for which `holds(i)` is true, in increasing order.
+///
+/// \param length  of the ranges of `parallel_collect`
+template <class Holds>
+std::vector<std::uint32_t> parallel_select(std::size_t count, std::size_t length, const Holds& holds) {
+  return parallel_collect<std::uint32_t>(count, length,
+                                         [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
+                                           for (; i < end; ++i)
+                                             if (holds(i)) found.push_back(static_cast<std::uint32_t>(i));
+                                         });
 }
 
 /// Adds one to numbers that all threads of the following loops add to. Make it before these loops, not in them. A

@@ -134,13 +134,9 @@ constexpr std::uint32_t extra_vertices = 1024;
 /// The vertices to insert, in order. Without deep vertices, some cells would be as large as the core, and reach into
 /// the parts of space of several threads. A few of the first vertices, which are everywhere, keep cells small.
 std::vector<std::uint32_t> vertices_to_insert(const LatticeCore& core, std::uint32_t first) {
-  const std::size_t count = core.is_deep.size() - first, extra = thread_count() == 1 ? 0 : count / extra_vertices;
-  return parallel_collect<std::uint32_t>(count, 1 << 14,
-                                         [&](std::size_t begin, std::size_t end, std::vector<std::uint32_t>& found) {
-                                           for (std::size_t i = begin; i < end; ++i)
-                                             if (i < extra || core.is_deep[first + i] == 0)
-                                               found.push_back(static_cast<std::uint32_t>(first + i));
-                                         });
+  const std::size_t count = core.is_deep.size(), extra = thread_count() == 1 ? 0 : (count - first) / extra_vertices;
+  return parallel_select(count, 1 << 14,
+                         [&](std::size_t v) { return v >= first && (v < first + extra || core.is_deep[v] == 0); });
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -14,9 +13,9 @@
 #include "engine/base/shared_progress.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
-#include "engine/geometry/integer_points.h"
 #include "engine/geometry/predicates.h"
 #include "engine/planar/triangulation.h"
+#include "engine/plc/facet_frame.h"
 
 namespace ccdt::facets {
 namespace {
@@ -25,16 +24,12 @@ using Triangle = std::array<VertexId, 3>;
 using Vertices = std::span<const delaunay::DelaunayVertex>;
 
 /// Exact planar predicates within a facet, agreeing with the tetrahedralization (a model of `planar::Predicates`).
-///
-/// In an exactly flat facet they are those of space with an apex above the plane. A nearly flat facet is *flattened*:
-/// its vertices are projected along the axis nearest to its normal, stretched to their true distances, and rounded to
-/// the grid. So they are exactly in one plane.
 class FacetPlane {
  public:
   FacetPlane(Vertices vertices, const Point3& apex) : vertices_(vertices), apex_(apex) {}
   /// \param flattened  by vertex; only those of the facet are read
   FacetPlane(Vertices vertices, const std::vector<Point3>& flattened)
-      : vertices_(vertices), flattened_(&flattened), apex_{0, 0, 0x1p50} {}
+      : vertices_(vertices), flattened_(&flattened), apex_(plc::FacetFrame::apex_of_flattened) {}
 
   int orient(VertexId a, VertexId b, VertexId c) const { return orient3d(at(a), at(b), at(c), apex_); }
 
@@ -74,42 +69,6 @@ class NearlyFlatPlane {
   int domain_side_;
 };
 
-/// The frame of a facet.
-struct FacetFrame {
-  Point3 normal;
-  int axis;      ///< axis nearest to the normal
-  double scale;  ///< extent of the facet
-};
-
-FacetFrame frame_of(std::span<const Triangle> triangles, Vertices vertices) {
-  Point3 normal;
-  const Point3& base = vertices[triangles[0][0]].point;
-  double scale = 1;
-  for (const Triangle& t : triangles) {
-    const Point3 u = vertices[t[1]].point - vertices[t[0]].point, v = vertices[t[2]].point - vertices[t[0]].point;
-    normal = normal + cross(u, v);
-    scale = std::max(scale, squared_length(vertices[t[0]].point - base));
-  }
-  normal = (1 / std::sqrt(squared_length(normal))) * normal;
-  return {normal, dominant_axis(normal), std::sqrt(scale)};
-}
-
-/// The least power of two that is not less than a positive number.
-double power_of_two_above(double x) {
-  int exponent = 0;
-  const double fraction = std::frexp(x, &exponent);
-  return std::ldexp(fraction == 0.5 ? 0.5 : 1, exponent);
-}
-
-FacetPlane exact_plane(std::span<const Triangle> triangles, Vertices vertices) {
-  const FacetFrame frame = frame_of(triangles, vertices);
-  const double up = power_of_two_above(frame.scale);
-  Point3 apex = vertices[triangles[0][0]].point;
-  double& height = frame.axis == 0 ? apex.x : frame.axis == 1 ? apex.y : apex.z;
-  height += std::copysign(up, as_array(frame.normal)[frame.axis]);
-  return FacetPlane(vertices, apex);
-}
-
 /// How many facets a thread takes at a time.
 constexpr std::size_t facets_per_chunk = 1024;
 
@@ -140,7 +99,7 @@ class FacetMesher {
       return;
     }
     const std::vector<FacetSegment> segments = segments_of(triangles);
-    const FacetPlane plane = facet.exactly_flat ? exact_plane(triangles, d_.vertices) : flatten(triangles, segments);
+    const FacetPlane plane = facet.exactly_flat ? exact_plane(triangles) : flatten(triangles, segments);
     planar::Triangulation t = split_triangulation(triangles, plane, segments);
     if (!facet.exactly_flat) take_faces_on_domain_side(facet, plane, t);
     result.triangles.insert(result.triangles.end(), t.triangles.begin(), t.triangles.end());
@@ -193,25 +152,15 @@ class FacetMesher {
     return segments;
   }
 
-  /// Projects the vertices along the frame's axis and stretches the projection to true distances. Distances in the
-  /// plane are those of a linear image of the other two coordinates (s, t), which keeps orientations.
+  FacetPlane exact_plane(std::span<const Triangle> triangles) const {
+    return {d_.vertices, plc::FacetFrame(triangles, plc_.vertices).apex(triangles, plc_.vertices)};
+  }
+
   FacetPlane flatten(std::span<const Triangle> triangles, const std::vector<FacetSegment>& segments) {
-    const FacetFrame frame = frame_of(triangles, d_.vertices);
+    const plc::FacetFrame frame(triangles, plc_.vertices);
     flattened_.resize(d_.vertices.size());
-    const auto pick = [&](const Point3& p) {  // the axis last, with the other two in the order that keeps above above
-      if (frame.axis == 0) return Point3{p.y, p.z, p.x};
-      if (frame.axis == 1) return Point3{p.z, p.x, p.y};
-      return p;
-    };
-    const Point3 n = pick(frame.normal);
-    const Point3 base = pick(d_.point(triangles[0][0]));
-    const double rise_s = -n.x / n.z, rise_t = -n.y / n.z, turn = n.z > 0 ? 1 : -1;
-    const double first = std::sqrt(1 + rise_s * rise_s);
-    const double shear = rise_s * rise_t / first, second = std::sqrt(1 + rise_t * rise_t - shear * shear);
-    const auto flatten_vertex = [&](VertexId v) {
-      const Point3 p = pick(d_.point(v)) - base;
-      flattened_[v] = {round_to_unit(0.25 * (first * p.x + shear * p.y)), round_to_unit(0.25 * turn * second * p.y), 0};
-    };
+    const Point3 base = d_.point(triangles[0][0]);
+    const auto flatten_vertex = [&](VertexId v) { flattened_[v] = frame.flattened(d_.point(v) - base); };
     for (const Triangle& t : triangles) std::for_each(t.begin(), t.end(), flatten_vertex);
     for (const FacetSegment& s : segments)
       for (const protection::ChainVertex& v : chains_[s.segment]) flatten_vertex(v.vertex);

@@ -3,39 +3,24 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/base/parallel.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/contacts.h"
 
 namespace ccdt::folds {
-namespace {
-
-using Triangle = std::array<VertexId, 3>;
-
-/// Do two triangles share more than vertices and edges?
-bool meet(Triangle s, Triangle t, const delaunay::Delaunay& d) {
-  const int common = put_common_first(s, t);
-  const auto points_of = [&](const Triangle& c) { return std::array{d.point(c[0]), d.point(c[1]), d.point(c[2])}; };
-  return common == 3 || meet_elsewhere(points_of(s), points_of(t), common).has_value();
-}
-
-}  // namespace
 
 std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const delaunay::Delaunay& d,
                                          std::span<const std::uint32_t> codes,
                                          const std::vector<FacetOrigin>& origins) {
+  const auto point = [&](VertexId v) { return d.point(v); };
   const auto box_of_face = [&](std::uint32_t face) {
     const auto& [a, b, c] = facets.triangles[face];
-    return bounding_box(std::array{d.point(a), d.point(b), d.point(c)});
+    return bounding_box(std::array{point(a), point(b), point(c)});
   };
-  std::vector<std::uint32_t> missing;
-  RawVector<Box> boxes;
-  for (std::uint32_t i = 0; i < codes.size(); ++i) {
-    if (codes[i] != delaunay::no_neighbor) continue;
-    missing.push_back(i);
-    boxes.push_back(box_of_face(i));
-  }
+  const std::vector<std::uint32_t> missing =
+      parallel_select(codes.size(), 4096, [&](std::size_t i) { return codes[i] == delaunay::no_neighbor; });
   if (missing.empty()) return {};
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(missing, box_of_face);
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < facets.triangles.size(); ++i) {
     const FacetOrigin& one = origins[facets.facet[i]];
@@ -43,7 +28,7 @@ std::vector<std::uint32_t> find_contacts(const facets::FacetMesh& facets, const 
       const std::uint32_t j = missing[m];
       const FacetOrigin& other = origins[facets.facet[j]];
       if ((!one.moved && !other.moved) || one.facet == other.facet) return;
-      if (!meet(facets.triangles[i], facets.triangles[j], d)) return;
+      if (!cross_or_fold(facets.triangles[i], facets.triangles[j], point)) return;
       if (one.moved) found.push_back(i);
       if (other.moved) found.push_back(j);
     });

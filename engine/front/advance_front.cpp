@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
+#include "engine/base/simplex_map.h"
 #include "engine/delaunay/delaunay.h"
 #include "engine/front/apex_finders.h"
 #include "engine/front/find_swallowed.h"
@@ -18,16 +19,9 @@
 namespace ccdt::front {
 namespace {
 
-/// Hashes faces.
 struct OrientedFaceTraits {
   static OrientedFace none() { return {ghost_vertex, ghost_vertex, ghost_vertex}; }
-  static std::size_t hash(const OrientedFace& f) {
-    std::uint64_t h =
-        f.corners[0] * 0x9E3779B97F4A7C15u ^ f.corners[1] * 0xC2B2AE3D27D4EB4Fu ^ f.corners[2] * 0x165667B19E3779F9u;
-    h ^= h >> 32;
-    h *= 0xD6E8FEB86659FD93u;
-    return static_cast<std::size_t>(h ^ h >> 32);
-  }
+  static std::size_t hash(const OrientedFace& f) { return HashTraits<FaceKey>::hash(f.corners); }
 };
 
 enum Side : std::size_t { above = 0, below = 1 };

@@ -204,11 +204,7 @@ std::vector<std::uint32_t> find_delaunay_faces_again(const std::vector<std::arra
           if (codes[i] != no_neighbor && is_confirmed.set(codes[i])) again.push_back(codes[i]);
         }
       });
-  const auto others = parallel_collect<std::uint32_t>(
-      codes.size(), 4096, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
-        for (; i < end; ++i)
-          if (codes[i] == no_neighbor) found.push_back(static_cast<std::uint32_t>(i));
-      });
+  const auto others = parallel_select(codes.size(), 4096, [&](std::size_t i) { return codes[i] == no_neighbor; });
   std::vector<std::array<VertexId, 3>> their_corners(others.size());
   parallel_for(others.size(), 4096, [&](std::size_t i) { their_corners[i] = triangles[others[i]]; });
   const std::vector<std::uint32_t> found = find_others(their_corners, delaunay);

@@ -1,9 +1,10 @@
 #include "engine/front/find_swallowed.h"
 
 #include <algorithm>
-#include <utility>
+#include <array>
 
 #include "engine/base/box.h"
+#include "engine/base/parallel.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/predicates.h"
 
@@ -11,10 +12,6 @@ namespace ccdt::front {
 namespace {
 
 using Tetrahedron = std::array<std::uint32_t, 4>;
-
-bool is_real(const Tetrahedron& t) {
-  return t[3] != delaunay::ghost_vertex;
-}
 
 std::vector<bool> corners_of(std::span<const Tetrahedron> tetrahedra, const facets::FacetMesh& facets,
                              std::size_t vertices) {
@@ -42,15 +39,12 @@ std::vector<std::uint32_t> find_swallowing(std::span<const Tetrahedron> tetrahed
   std::vector<std::uint32_t> found;
   const std::vector<bool> is_corner = corners_of(tetrahedra, facets, d.vertices.size());
   if (std::ranges::find(is_corner, false) == is_corner.end()) return found;
-  std::vector<std::uint32_t> real;
-  RawVector<Box> boxes;
-  for (std::uint32_t i = 0; i < tetrahedra.size(); ++i) {
-    if (!is_real(tetrahedra[i])) continue;
-    real.push_back(i);
-    boxes.push_back(empty_box);
-    for (const std::uint32_t v : tetrahedra[i]) boxes.back() = hull(boxes.back(), box_of(d.point(v)));
-  }
-  const BoxTree tree(std::move(boxes));
+  const std::vector<std::uint32_t> real = parallel_select(
+      tetrahedra.size(), 4096, [&](std::size_t i) { return tetrahedra[i][3] != delaunay::ghost_vertex; });
+  const BoxTree tree(real, [&](std::uint32_t i) {
+    const auto& [a, b, c, apex] = tetrahedra[i];
+    return bounding_box(std::array{d.point(a), d.point(b), d.point(c), d.point(apex)});
+  });
   for (std::uint32_t v = 0; v < is_corner.size(); ++v) {
     if (is_corner[v]) continue;
     tree.for_each_meeting(box_of(d.point(v)), [&](std::uint32_t i) {

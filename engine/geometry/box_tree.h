@@ -28,6 +28,15 @@ class BoxTree {
   BoxTree() = default;
   /// \param sizes  of the items, if they have any
   explicit BoxTree(RawVector<Box> boxes, const RawVector<double>& sizes = {});
+  /// Over a list of anything, which several threads read.
+  ///
+  /// \param box_of   `box_of(items[i])` is the box of item i
+  /// \param size_of  the same for its size
+  template <class Items, class BoxOf>
+  BoxTree(const Items& items, const BoxOf& box_of) : BoxTree(values_of(items, box_of)) {}
+  template <class Items, class BoxOf, class SizeOf>
+  BoxTree(const Items& items, const BoxOf& box_of, const SizeOf& size_of)
+      : BoxTree(values_of(items, box_of), values_of(items, size_of)) {}
 
   std::size_t bytes() const { return bytes_of(items_, boxes_, nodes_, sizes_, least_sizes_, places_); }
 
@@ -58,6 +67,13 @@ class BoxTree {
 
  private:
   static constexpr std::uint32_t leaf_size = 4;
+
+  template <class Items, class ValueOf>
+  static auto values_of(const Items& items, const ValueOf& value_of) {
+    RawVector<decltype(value_of(items[0]))> values(items.size());
+    parallel_for(values.size(), 4096, [&](std::size_t i) { values[i] = value_of(items[i]); });
+    return values;
+  }
 
   bool is_leaf(std::uint32_t node) const { return node >= leaf_count_; }
   /// Where the items of a leaf begin and end in `items_`.

@@ -74,6 +74,16 @@ int put_common_first(std::array<Id, 3>& s, std::array<Id, 3>& t) {
   return common;
 }
 
+/// Do two triangles, given by ids, share more than corners and edges?
+///
+/// \param point  `point(id)`
+template <class Id, class PointOf>
+bool cross_or_fold(std::array<Id, 3> s, std::array<Id, 3> t, const PointOf& point) {
+  const int common = put_common_first(s, t);
+  const auto points_of = [&](const std::array<Id, 3>& c) { return std::array{point(c[0]), point(c[1]), point(c[2])}; };
+  return common == 3 || meet_elsewhere(points_of(s), points_of(t), common).has_value();
+}
+
 /// The sides of a plane that three points are on: 1, 0 or -1.
 using Sides = std::array<int, 3>;
 

@@ -192,7 +192,7 @@ bool is_disturbed(const CellComplex& x, const Step& step, const Window& window) 
 void find_counted(const CellComplex& x, const Task& task, const BadCell& bad, Effort effort, StepScratch& scratch,
                   Attempt& attempt) {
   attempt.work = {};
-  const WorkElsewhere scope(attempt.work);
+  const WorkScope scope(attempt.work, true);
   find_step(x, task.rules, bad.cell, bad.has_moved, effort, scratch, attempt.step);
 }
 

@@ -85,24 +85,28 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   return medit;
 }
 
+/// Sections without elements are left out.
+///
 /// \param comment  a line "# ...", or empty; it comes second because other readers want the version in the first line
-void write_head(std::string_view comment, const std::vector<Point3>& vertices, OutputFile& out) {
-  out << "MeshVersionFormatted 2\n" << comment << "\nDimension 3\n\nVertices\n" << vertices.size() << '\n';
+/// \param surface  its quadrilaterals are written
+void write_medit(std::string_view comment, const mesh::TetMesh& mesh, const MeditFile& surface, OutputFile& out) {
+  out << "MeshVersionFormatted 2\n" << comment << "\nDimension 3\n\nVertices\n" << mesh.vertices.size() << '\n';
   write_lines(
-      vertices.size(), [&](std::size_t i, auto& text) { text << vertices[i] << " 0\n"; }, out);
-}
-
-/// Writes a section, or nothing if there are no elements. `references` is empty (all 0) or has one per element.
-template <std::size_t Corners>
-void write_elements(const char* keyword, std::span<const std::array<std::uint32_t, Corners>> elements,
-                    std::span<const int> references, OutputFile& out) {
-  if (elements.empty()) return;
-  out << '\n' << keyword << '\n' << elements.size() << '\n';
-  const auto line = [&](std::size_t i, auto& text) {
-    for (const std::uint32_t v : elements[i]) text << v + 1 << ' ';
-    text << (references.empty() ? 0 : references[i]) << '\n';
+      mesh.vertices.size(), [&](std::size_t i, auto& text) { text << mesh.vertices[i] << " 0\n"; }, out);
+  const auto write_section = [&](const char* keyword, const auto& elements, const std::vector<int>& references) {
+    if (elements.empty()) return;
+    out << '\n' << keyword << '\n' << elements.size() << '\n';
+    const auto line = [&](std::size_t i, auto& text) {
+      for (const std::uint32_t v : elements[i]) text << v + 1 << ' ';
+      text << attribute_of(references, i) << '\n';
+    };
+    write_lines(elements.size(), line, out);
   };
-  write_lines(elements.size(), line, out);
+  write_section("Edges", mesh.edges, mesh.edge_markers);
+  write_section("Triangles", mesh.faces, mesh.face_markers);
+  write_section("Quadrilaterals", surface.quadrilaterals, surface.quadrilateral_references);
+  write_section("Tetrahedra", mesh.tetrahedra, mesh.regions);
+  out << "\nEnd\n";
 }
 
 }  // namespace
@@ -164,20 +168,11 @@ mesh::TetMesh read_medit_mesh(const FileBytes& file) {
 
 void write_medit_plc(const plc::InputPlc& plc, OutputFile& out) {
   const MeditFile medit = medit_of(plc);
-  write_head(plc.inside == plc::InputPlc::Inside::even_odd ? even_odd_claim : "", plc.vertices, out);
-  write_elements<2>("Edges", medit.mesh.edges, medit.mesh.edge_markers, out);
-  write_elements<3>("Triangles", medit.mesh.faces, medit.mesh.face_markers, out);
-  write_elements<4>("Quadrilaterals", medit.quadrilaterals, medit.quadrilateral_references, out);
-  out << "\nEnd\n";
+  write_medit(plc.inside == plc::InputPlc::Inside::even_odd ? even_odd_claim : "", medit.mesh, medit, out);
 }
 
 void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out) {
-  const std::string claim = mesh.constrained_delaunay ? "# " + std::string(constrained_delaunay_claim) : "";
-  write_head(claim, mesh.vertices, out);
-  write_elements<2>("Edges", mesh.edges, mesh.edge_markers, out);
-  write_elements<3>("Triangles", mesh.faces, mesh.face_markers, out);
-  write_elements<4>("Tetrahedra", mesh.tetrahedra, mesh.regions, out);
-  out << "\nEnd\n";
+  write_medit(mesh.constrained_delaunay ? "# " + std::string(constrained_delaunay_claim) : "", mesh, {}, out);
 }
 
 }  // namespace ccdt::io

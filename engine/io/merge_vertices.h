@@ -16,19 +16,6 @@ namespace ccdt::io {
 template <class Bits>
 using PointBits = std::array<Bits, 3>;
 
-template <class Bits>
-struct PointBitsTraits {
-  static constexpr PointBits<Bits> none() { return {~Bits{0}, ~Bits{0}, ~Bits{0}}; }  // a NaN, which no point has
-  static std::size_t hash(const PointBits<Bits>& key) {
-    std::uint64_t h = 0;
-    for (const Bits bits : key) {  // coordinates often end in zeros, so the high bits must be mixed into the low ones
-      h = (h ^ bits) * 0xff51afd7ed558ccdull;
-      h ^= h >> 32;
-    }
-    return static_cast<std::size_t>(h);
-  }
-};
-
 /// Gives equal points one index. Formats that repeat a vertex for every triangle would need six times the memory
 /// otherwise. 0 and -0 are equal. The points must be finite.
 ///
@@ -71,7 +58,7 @@ class VertexMerger {
   }
 
   std::vector<Point3>& vertices_;
-  HashTable<PointBits<Bits>, std::uint32_t, PointBitsTraits<Bits>> indices_;
+  HashTable<PointBits<Bits>, std::uint32_t> indices_;
 };
 
 }  // namespace ccdt::io

@@ -261,12 +261,9 @@ RawVector<char> VtkArrays::decompressed(Array array, std::string_view bytes) con
     size += static_cast<std::size_t>(due);
   }
   RawVector<char> result(size);
-  const auto bad = parallel_collect<std::size_t>(
-      found.size(), 1, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& some) {
-        for (; i < end; ++i)
-          if (!decompress_block(found[i].compressed, {result.data() + found[i].begin, found[i].size}))
-            some.push_back(i);
-      });
+  const auto bad = parallel_select(found.size(), 1, [&](std::size_t i) {
+    return !decompress_block(found[i].compressed, {result.data() + found[i].begin, found[i].size});
+  });
   if (const std::size_t first = bad.empty() ? found.size() : bad.front(); first < blocks)
     fail(begin_of(array), name_of(array) + ": block " + std::to_string(first) + " of its compressed data is damaged");
   return result;

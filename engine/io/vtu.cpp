@@ -27,15 +27,13 @@ std::vector<Point3> read_points(const VtkArrays& arrays) {
   const StoredNumbers<double> xyz = arrays.read<double>(array);
   arrays.check_size(array, xyz.size(), 3 * arrays.claimed("NumberOfPoints"));
   std::vector<Point3> points(xyz.size() / 3);
-  const auto read_some = [&](std::size_t i, std::size_t end, std::vector<std::size_t>& bad) {
-    for (; i < end; ++i) {
-      std::array<double, 3> at;
-      xyz.read(3 * i, 3 * i + 3, at.data());
-      points[i] = {at[0], at[1], at[2]};
-      if (!std::ranges::all_of(at, [](double x) { return std::isfinite(x); })) bad.push_back(i);
-    }
+  const auto read_bad = [&](std::size_t i) {
+    std::array<double, 3> at;
+    xyz.read(3 * i, 3 * i + 3, at.data());
+    points[i] = {at[0], at[1], at[2]};
+    return !std::ranges::all_of(at, [](double x) { return std::isfinite(x); });
   };
-  if (const auto bad = parallel_collect<std::size_t>(points.size(), range_length, read_some); !bad.empty())
+  if (const auto bad = parallel_select(points.size(), range_length, read_bad); !bad.empty())
     arrays.fail(arrays.begin_of(array),
                 "vertex " + std::to_string(bad[0]) + ": a coordinate is not a finite number (NaN or infinite)",
                 "repair this vertex, or export the file again");

@@ -147,11 +147,7 @@ RawVector<RegionId> label_cells(const plc::Plc& plc, const delaunay::Delaunay& d
   parallel_fill(std::span(region), RegionId());
   parallel_for(open.size(), grain,
                [&](std::size_t i) { note_least(region[cell_of(open[i].code)].value, open[i].region); });
-  const auto first = parallel_collect<std::uint32_t>(
-      d.cells.size(), grain, [&](std::size_t cell, std::size_t end, std::vector<std::uint32_t>& found) {
-        for (; cell < end; ++cell)
-          if (!region[cell].is_none()) found.push_back(static_cast<std::uint32_t>(cell));
-      });
+  const auto first = parallel_select(d.cells.size(), grain, [&](std::size_t cell) { return !region[cell].is_none(); });
   const IndexLists first_of =
       group_indices(plc.regions.size(), first.size(), [&](std::size_t i) { return region[first[i]]; });
   RegionFlood flood(d, bits, region);

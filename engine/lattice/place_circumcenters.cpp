@@ -38,8 +38,6 @@ CellVertices sorted(CellVertices v) {
 struct CellShape {
   Point3 center;
   double squared_radius, squared_shortest_edge;
-
-  double squared_ratio() const { return squared_radius / squared_shortest_edge; }
 };
 
 /// Up to rounding; a radius that is infinite or not a number if the cell is too flat.

@@ -141,11 +141,7 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
     const OctreeNode& leaf = tree.leaf_at(coordinates);
     if (is_site_inside(tree, surface, coordinates, leaf)) levels[i] = leaf.level;
   });
-  const auto kept = parallel_collect<std::uint32_t>(
-      sites.size(), 8192, [&](std::size_t i, std::size_t end, std::vector<std::uint32_t>& found) {
-        for (; i < end; ++i)
-          if (levels[i] != outside) found.push_back(static_cast<std::uint32_t>(i));
-      });
+  const auto kept = parallel_select(sites.size(), 8192, [&](std::size_t i) { return levels[i] != outside; });
   result.points.resize(kept.size());
   result.levels.resize(kept.size());
   result.later_rounds.resize(kept.size());

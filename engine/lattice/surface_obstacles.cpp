@@ -14,16 +14,6 @@ namespace {
 
 constexpr std::size_t obstacle_grain = 1024;  ///< of loops on several threads
 
-RawVector<Box> boxes_of(const RawVector<Obstacle>& obstacles, const DomainSurface& surface) {
-  RawVector<Box> boxes(obstacles.size());
-  parallel_for(obstacles.size(), obstacle_grain, [&](std::size_t i) {
-    const Obstacle& o = obstacles[i];
-    boxes[i] = bounding_box(surface.corners(o.vertices));
-    if (o.squared_ball_radius >= 0) boxes[i] = hull(boxes[i], expanded(box_of(o.ball.center), o.ball.radius));
-  });
-  return boxes;
-}
-
 }  // namespace
 
 RawVector<Obstacle> list_obstacles(const DomainSurface& surface, double sphere_factor) {
@@ -51,7 +41,10 @@ RawVector<Obstacle> list_obstacles(const DomainSurface& surface, double sphere_f
 }
 
 SurfaceObstacles::SurfaceObstacles(const DomainSurface& surface, double sphere_factor)
-    : surface_(surface), obstacles_(list_obstacles(surface, sphere_factor)), tree_(boxes_of(obstacles_, surface)) {}
+    : surface_(surface), obstacles_(list_obstacles(surface, sphere_factor)), tree_(obstacles_, [&](const Obstacle& o) {
+        const Box box = bounding_box(surface.corners(o.vertices));
+        return o.squared_ball_radius < 0 ? box : hull(box, expanded(box_of(o.ball.center), o.ball.radius));
+      }) {}
 
 bool SurfaceObstacles::reach(const Point3& p, double clearance) const {
   bool is_reached = false;

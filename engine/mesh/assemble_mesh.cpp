@@ -71,11 +71,8 @@ class FlatTetrahedronPeeler {
   void peel() {
     find_nearly_flat_facets();
     if (vertices_ == 0) return;
-    std::vector<std::size_t> flat = parallel_collect<std::size_t>(
-        mesh_.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end, std::vector<std::size_t>& found) {
-          for (; i < end; ++i)
-            if (lies_within_facet(mesh_.tetrahedra[i])) found.push_back(i);
-        });
+    std::vector<std::uint32_t> flat = parallel_select(
+        mesh_.tetrahedra.size(), chunk_length, [&](std::size_t i) { return lies_within_facet(mesh_.tetrahedra[i]); });
     if (flat.empty()) return;
     list_faces();
     // Sorted, so that the order does not depend on how the tetrahedra were found.

@@ -186,10 +186,7 @@ LargeVector<Cell> join_tetrahedra(const TetMesh& mesh, RawVector<std::uint32_t> 
   parallel_for(count, grain, [&](std::size_t i) {
     if (sources[i] < cell_count) tetrahedron_of[sources[i]] = static_cast<std::uint32_t>(i);
   });
-  const auto of_front = parallel_collect<std::uint32_t>(count, grain, [&](std::size_t i, std::size_t end, auto& found) {
-    for (; i < end; ++i)
-      if (sources[i] >= cell_count) found.push_back(static_cast<std::uint32_t>(i));
-  });
+  const auto of_front = parallel_select(count, grain, [&](std::size_t i) { return sources[i] >= cell_count; });
   release(sources);
   RawVector<std::uint8_t> arrangements(cell_count);
   parallel_fill(std::span(arrangements), std::uint8_t{0});

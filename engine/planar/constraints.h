@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/planar/topology.h"
@@ -15,8 +16,7 @@ namespace ccdt::planar {
 /// side in the stack stands for whatever edge is there when its turn comes; a flip pushes all edges that it moves
 /// again.
 template <Predicates P>
-std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
-  std::size_t flips = 0;
+void legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, const P& predicates) {
   while (!stack.empty()) {
     const Side s = unpack(stack.back());
     stack.pop_back();
@@ -28,10 +28,8 @@ std::size_t legalize_from(Triangulation& t, std::vector<std::uint32_t>& stack, c
     // only nearly those of a plane.
     if (predicates.orient(c, a, d) <= 0 || predicates.orient(d, b, c) <= 0) continue;
     for (Side outer : flip(t, s)) stack.push_back(pack(outer));
-    ++flips;
+    ++work_done.edges_flipped;
   }
-  work_done.edges_flipped += flips;
-  return flips;
 }
 
 /// Splits the edge at v into two (at the border) or four triangles and legalizes around v.
@@ -230,26 +228,26 @@ void insert_edges(TriangulationResult& result, std::span<const Edge> edges, cons
     if (!has_vertex(result.triangulation, a) || !has_vertex(result.triangulation, b)) {
       throw std::invalid_argument("an edge ends in a vertex that is not among the vertices");
     }
-    const ConstraintResult inserted = insert_constraint(result.triangulation, a, b, predicates);
-    if (!inserted) {
+    const ConstraintResult constraint = insert_constraint(result.triangulation, a, b, predicates);
+    if (!constraint.inserted) {
       result.status = TriangulationResult::Status::crossing;
-      result.crossing = {number_of_part(parts, inserted.obstacle), number};
+      result.crossing = {number_of_part(parts, constraint.obstacle), number};
       result.triangulation = {};
       return;
     }
-    for (const Edge& part : inserted.parts) parts.push_back({part, number});
+    for (const Edge& part : constraint.parts) parts.push_back({part, number});
   }
 }
 
 template <Predicates P>
-std::size_t legalize(Triangulation& t, const P& predicates) {
+void legalize(Triangulation& t, const P& predicates) {
   std::vector<std::uint32_t> stack;
   for (std::uint32_t packed = 0; packed < 3 * t.triangles.size(); ++packed) {
     const Side s = unpack(packed);
     const std::uint32_t other = neighbor(t, s);
     if (other != none && s.triangle < other) stack.push_back(packed);
   }
-  return legalize_from(t, stack, predicates);
+  legalize_from(t, stack, predicates);
 }
 
 template <Predicates P>
@@ -265,21 +263,12 @@ ConstraintResult insert_constraint(Triangulation& t, VertexId a, VertexId b, con
   ConstraintResult result;
   while (a != b) {
     RayExit exit = find_ray_exit(t, a, b, predicates);
-    if (exit.kind == RayExit::Kind::nowhere) {
-      result.status = ConstraintResult::Status::outside;
-      result.obstacle = {a, a};
-      return result;
-    }
+    if (exit.kind == RayExit::Kind::nowhere) return {false, std::move(result.parts), {a, a}};
     std::vector<std::uint32_t> to_check;
     if (exit.kind == RayExit::Kind::through_edge) {
       const Channel channel = walk_channel(t, a, b, exit.side, predicates);
-      if (channel.end.is_none()) {
-        const bool constrained = is_constrained(t, channel.obstacle);
-        result.status = constrained && neighbor(t, channel.obstacle) != none ? ConstraintResult::Status::crossing
-                                                                             : ConstraintResult::Status::outside;
-        result.obstacle = {edge_start(t, channel.obstacle), edge_end(t, channel.obstacle)};
-        return result;
-      }
+      if (channel.end.is_none())
+        return {false, std::move(result.parts), {edge_start(t, channel.obstacle), edge_end(t, channel.obstacle)}};
       cut_through(t, a, channel, predicates);
       for (std::uint32_t triangle : channel.triangles) {
         for (std::uint32_t corner = 0; corner < 3; ++corner) to_check.push_back(pack({triangle, corner}));
@@ -304,7 +293,7 @@ TriangulationResult triangulate(std::span<const VertexId> vertices, std::span<co
   if (!result) return result;
 
   Triangulation& t = result.triangulation;
-  std::vector<bool> keep = choose_inside(t, carving.outside);
+  std::vector<bool> keep = choose_inside(t, carving.nested);
   for (VertexId seed : carving.hole_seeds) {
     const std::uint32_t triangle = locate(t, seed, predicates);
     if (triangle == none) {

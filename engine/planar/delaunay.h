@@ -20,8 +20,7 @@ namespace ccdt::planar {
 struct SweepOrder {
   TriangulationResult::Status status = TriangulationResult::Status::ok;
   VertexId pole;
-  std::vector<VertexId> swept;   ///< all except the pole
-  std::vector<Edge> duplicates;  ///< vertices at the same place
+  std::vector<VertexId> swept;  ///< all except the pole
 };
 
 /// Three vertices that are not collinear, or nothing if there are none. (If the first vertices are all at one place,
@@ -126,7 +125,7 @@ SweepOrder sweep_order(std::span<const VertexId> vertices, const P& predicates) 
     if (v == pole && !pole_met) {
       pole_met = true;
     } else if (predicates.orient(pole, v, off_ray[0]) == 0 && predicates.orient(pole, v, off_ray[1]) == 0) {
-      order.duplicates.push_back({pole, v});
+      order.status = Status::duplicates;
     } else {
       order.swept.push_back(v);
     }
@@ -134,9 +133,8 @@ SweepOrder sweep_order(std::span<const VertexId> vertices, const P& predicates) 
   const SweptBefore<P> before{predicates, pole, off_ray};
   merge_sort(order.swept, before);
   for (std::size_t i = 1; i < order.swept.size(); ++i) {
-    if (!before(order.swept[i - 1], order.swept[i])) order.duplicates.push_back({order.swept[i - 1], order.swept[i]});
+    if (!before(order.swept[i - 1], order.swept[i])) order.status = Status::duplicates;
   }
-  if (!order.duplicates.empty()) order.status = Status::duplicates;
   return order;
 }
 
@@ -321,7 +319,6 @@ TriangulationResult delaunay(std::span<const VertexId> vertices, const P& predic
   TriangulationResult result;
   const SweepOrder order = sweep_order(vertices, predicates);
   result.status = order.status;
-  result.duplicates = order.duplicates;
   if (!result) return result;
   const auto triangles = DivideAndConquer<P>(order.swept, predicates).triangles_with_pole(order.pole);
   result.triangulation = from_triangles(triangles);

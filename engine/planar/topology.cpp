@@ -4,11 +4,16 @@
 #include <span>
 #include <utility>
 
+#include "engine/base/errors.h"
 #include "engine/planar/triangulation.h"
 
 namespace ccdt::planar {
 
 namespace {
+
+[[noreturn]] void fail(const char* what) {
+  throw InputError(what, {}, "repair the facet's triangles: neighbors must share whole edges, two at most each");
+}
 
 /// Enters a constrained or border edge into the table, so that it is found without a search.
 void register_edge(Triangulation& t, Side s) {
@@ -158,12 +163,11 @@ Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const Side s{triangle, corner};
       const VertexId from = edge_start(t, s), to = edge_end(t, s);
-      if (from == to) throw Defect("a triangle of a facet has the same vertex twice", {from, to});
+      if (from == to) fail("a triangle of a facet has the same vertex twice");
       if (const auto [first, is_new] = t.known_edges.insert(edge_key(from, to), pack(s)); !is_new) {
         const Side other = unpack(*first);
-        if (edge_start(t, other) == from || neighbor(t, other) != none) {
-          throw Defect("two triangles of a facet lie on the same side of an edge", {from, to});
-        }
+        if (edge_start(t, other) == from || neighbor(t, other) != none)
+          fail("two triangles of a facet lie on the same side of an edge");
         t.neighbors[triangle][corner] = other.triangle;
         t.neighbors[other.triangle][other.corner] = triangle;
       }
@@ -172,7 +176,7 @@ Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
   }
   for (const auto& [a, b] : constrained_edges) {
     const std::uint32_t* packed = t.known_edges.find(edge_key(a, b));
-    if (packed == nullptr) throw Defect("a constrained edge of a facet is not an edge of its triangles", {a, b});
+    if (packed == nullptr) fail("a constrained edge of a facet is not an edge of its triangles");
     const Side s = unpack(*packed);
     set_constrained(t, edge_start(t, s) == a || neighbor(t, s) == none ? s : other_side(t, s), true);
   }
@@ -273,13 +277,10 @@ std::vector<std::uint32_t> nesting_depths(const Triangulation& t) {
 
 }  // namespace
 
-std::vector<bool> choose_inside(const Triangulation& t, Carving::Outside outside) {
-  std::vector<bool> keep(t.triangles.size(), true);
-  if (outside == Carving::Outside::keep) return keep;
+std::vector<bool> choose_inside(const Triangulation& t, bool nested) {
   const std::vector<std::uint32_t> depths = nesting_depths(t);
-  for (std::size_t i = 0; i < keep.size(); ++i) {
-    keep[i] = outside == Carving::Outside::remove ? depths[i] > 0 : depths[i] % 2 == 1;
-  }
+  std::vector<bool> keep(depths.size());
+  for (std::size_t i = 0; i < keep.size(); ++i) keep[i] = nested ? depths[i] % 2 == 1 : depths[i] > 0;
   return keep;
 }
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "engine/base/count_work.h"
-#include "engine/base/errors.h"
 #include "engine/base/hash_table.h"
 #include "engine/base/index.h"
 #include "engine/base/simplex_map.h"
@@ -58,42 +57,19 @@ struct Triangulation {
   Table known_edges;  ///< edges, among them all constrained and border edges -> 3 * triangle + corner of one side
 };
 
-/// A list of triangles that is not a triangulation of a part of a plane. The catcher knows the coordinates and can add
-/// the place.
-class Defect : public InputError {
- public:
-  Defect(const std::string& what, Edge edge)
-      : InputError(what, {}, "repair the facet's triangles: neighbors must share whole edges, two at most each"),
-        edge_(edge) {}
-  Edge edge() const { return edge_; }
-
- private:
-  Edge edge_;
-};
-
 /// The result of inserting a constraint.
 struct ConstraintResult {
-  enum class Status {
-    inserted,  ///< ab is there, in `parts`
-    crossing,  ///< ab crosses the constrained edge `obstacle`
-    outside,   ///< ab leaves the triangulation through the border edge `obstacle`, or at a vertex (twice in `obstacle`)
-  };
-  Status status = Status::inserted;
+  bool inserted = true;
   std::vector<Edge> parts;  ///< from a to b, cut by vertices on ab; unless inserted, those before the obstacle
-  Edge obstacle;
-
-  explicit operator bool() const { return status == Status::inserted; }
+  Edge obstacle;  ///< unless inserted: the constrained or border edge that ab crosses, or twice the vertex where it
+                  ///< leaves the triangulation
 };
 
 /// What to remove from the constrained Delaunay triangulation of all vertices.
 struct Carving {
-  enum class Outside {
-    keep,     ///< the convex hull of the vertices stays
-    remove,   ///< everything that is reachable from the border of the convex hull without crossing a constraint is
-              ///< removed
-    nesting,  ///< polygons: of the regions nested in each other, outermost first, every second one stays (even-odd)
-  };
-  Outside outside = Outside::remove;
+  /// Polygons: of the regions nested in each other, outermost first, every second one stays (even-odd). If not nested,
+  /// only what is reachable from the border of the convex hull without crossing a constraint is removed.
+  bool nested = false;
   /// Points in holes, each known to `predicates.orient` as a vertex, but not one of the vertices: everything reachable
   /// from it without crossing a constraint is removed.
   std::vector<VertexId> hole_seeds;
@@ -104,14 +80,13 @@ struct TriangulationResult {
   enum class Status {
     ok,
     collinear,   ///< fewer than three vertices, or all on one line
-    duplicates,  ///< vertices at the same place: `duplicates`
+    duplicates,  ///< vertices at the same place
     crossing,    ///< two edges cross: `crossing`
   };
   Status status = Status::ok;
   Triangulation triangulation;            ///< empty unless ok
   std::vector<VertexId> unused;           ///< vertices with no triangle left after carving
   std::vector<VertexId> lost_seeds;       ///< hole seeds outside all triangles
-  std::vector<Edge> duplicates;           ///< pairs of vertices at the same place (equal if an id was given twice)
   std::array<std::size_t, 2> crossing{};  ///< numbers of two edges that cross in a point that is not a vertex
 
   explicit operator bool() const { return status == Status::ok; }
@@ -245,7 +220,7 @@ bool visit_star(const Triangulation& t, VertexId v, Visit visit) {
 Triangulation keep_triangles(const Triangulation& t, const std::vector<bool>& keep);
 
 /// Marks for `keep_triangles` according to the carving (see `Carving`).
-std::vector<bool> choose_inside(const Triangulation& t, Carving::Outside outside);
+std::vector<bool> choose_inside(const Triangulation& t, bool nested);
 
 /// Clears the marks of all triangles that are reachable from the seed triangle without crossing a constraint.
 void flood_hole(const Triangulation& t, std::uint32_t seed, std::vector<bool>& keep);

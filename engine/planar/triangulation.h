@@ -13,8 +13,8 @@ namespace ccdt::planar {
 /// The triangulation that consists of these triangles, all counterclockwise in the caller's plane. Nothing is flipped.
 ///
 /// \param room  memory is reserved for this many more triangles
-/// \throw Defect  an edge with more than two triangles, or two triangles on the same side of an edge; or a
-///                      constrained edge that no triangle has
+/// \throw InputError  an edge with more than two triangles, or two triangles on the same side of an edge; or a
+///                    constrained edge that no triangle has
 Triangulation from_triangles(std::span<const std::array<VertexId, 3>> triangles,
                              std::span<const Edge> constrained_edges = {}, std::size_t room = 0);
 
@@ -37,10 +37,8 @@ std::vector<Edge> border_edges(const Triangulation& t);
 /// Flips unconstrained inner edges until each is locally Delaunay: the triangulation becomes the constrained Delaunay
 /// triangulation (Lawson 1977). A tie (`incircle` 0) leaves the edge; without ties the result is unique. It terminates
 /// if the predicates are exact.
-///
-/// \return the number of flipped edges
 template <Predicates P>
-std::size_t legalize(Triangulation& t, const P& predicates);
+void legalize(Triangulation& t, const P& predicates);
 
 /// Inserts the vertex v, which lies exactly on the edge ab, strictly between its ends, and legalizes around it. The
 /// halves of the edge inherit its constraint. If the triangulation was constrained Delaunay, it is so again.

@@ -9,7 +9,6 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
-#include "engine/geometry/box_tree.h"
 #include "engine/geometry/contacts.h"
 #include "engine/geometry/integer_points.h"
 
@@ -85,11 +84,8 @@ class TrianglePairs {
 
 }  // namespace
 
-RawVector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
-  RawVector<Box> boxes(triangles.size());
-  parallel_for(boxes.size(), 4096,
-               [&](std::size_t t) { boxes[t] = bounding_box(points_of(vertices, triangles.corners[t])); });
-  return boxes;
+BoxTree tree_of(std::span<const Point3> vertices, const TriangleSet& triangles) {
+  return {triangles.corners, [&](const VertexTriple& corners) { return bounding_box(points_of(vertices, corners)); }};
 }
 
 std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices, const TriangleSet& triangles,
@@ -103,9 +99,7 @@ std::vector<TrianglePair> find_close_triangles(std::span<const Point3> vertices,
   const bool are_few = doubtful.size() < all.size() / triangles_for_one;
   const std::vector<std::uint32_t>&in_tree = are_few ? doubtful : all, &sought = are_few ? all : doubtful;
   const auto box = [&](std::uint32_t t) { return bounding_box(points_of(vertices, triangles.corners[t])); };
-  RawVector<Box> boxes(in_tree.size());
-  parallel_for(boxes.size(), 4096, [&](std::size_t i) { boxes[i] = box(in_tree[i]); });
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(in_tree, box);
   const TrianglePairs pairs(vertices, triangles.corners);
   std::vector<TrianglePair> close = parallel_collect<TrianglePair>(
       sought.size(), 256, [&](std::size_t i, std::size_t end, std::vector<TrianglePair>& found) {

@@ -4,14 +4,13 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/box.h"
-#include "engine/base/raw_vector.h"
+#include "engine/geometry/box_tree.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::plc {
 
-/// The boxes of triangles.
-RawVector<Box> boxes_of(std::span<const Point3> vertices, const TriangleSet& triangles);
+/// The tree of the boxes of triangles.
+BoxTree tree_of(std::span<const Point3> vertices, const TriangleSet& triangles);
 
 /// Two different triangles, by their indices.
 struct TrianglePair {

@@ -45,7 +45,7 @@ ConnectedParts connect_parts(const Plc& plc, TriangleSet given_triangles, Segmen
   overlaps.covering = sort_around_edges(plc.vertices, triangles, patches.is_inner_edge, tolerance, edges, limit);
   overlaps.crossing = find_overlaps(plc.vertices, triangles, patches, close, limit);
   if (!match.loose.empty()) {
-    tree.emplace(boxes_of(plc.vertices, triangles));
+    tree = tree_of(plc.vertices, triangles);
     overlaps.of_segments = find_segment_overlaps(plc.vertices, triangles, segments, match.loose, *tree, limit);
   }
   return connected;

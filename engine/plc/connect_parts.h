@@ -26,8 +26,6 @@ struct Overlaps {
   std::vector<Overlap> covering;  ///< of triangles on one side of a common edge
   std::vector<Overlap> crossing;  ///< of other triangles
   std::vector<Overlap> of_segments;
-
-  bool empty() const { return covering.empty() && crossing.empty() && of_segments.empty(); }
 };
 
 struct ConnectedParts {

@@ -1,7 +1,6 @@
 #include "engine/plc/find_overlaps.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "engine/base/parallel.h"
 #include "engine/geometry/contacts.h"
@@ -58,17 +57,16 @@ std::vector<Overlap> find_segment_overlaps(std::span<const Point3> vertices, con
                                            const SegmentSet& segments, std::span<const std::uint32_t> loose,
                                            const BoxTree& tree, std::size_t limit) {
   std::vector<Overlap> found;
-  RawVector<Box> boxes;
-  for (const std::uint32_t s : loose) {
-    const auto& ends = segments.ends[s];
-    boxes.push_back(hull(box_of(vertices[ends[0]]), box_of(vertices[ends[1]])));
-    tree.for_each_meeting(boxes.back(), [&](std::uint32_t t) {
+  const auto box = [&](std::uint32_t s) {
+    return hull(box_of(vertices[segments.ends[s][0]]), box_of(vertices[segments.ends[s][1]]));
+  };
+  for (const std::uint32_t s : loose)
+    tree.for_each_meeting(box(s), [&](std::uint32_t t) {
       if (found.size() >= limit) return;
-      if (const auto contact = meet_loose(vertices, ends, triangles.corners[t]))
+      if (const auto contact = meet_loose(vertices, segments.ends[s], triangles.corners[t]))
         found.push_back({Overlap::Between::facet_and_segment, t, s, contact->where});
     });
-  }
-  BoxTree(std::move(boxes)).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+  BoxTree(loose, box).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
     const auto &a = segments.ends[loose[i]], &b = segments.ends[loose[j]];
     if (found.size() >= limit || share_end(a, b)) return;
     if (const auto contact = meet_segments(vertices[a[0]], vertices[a[1]], vertices[b[0]], vertices[b[1]]))

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
-#include "engine/base/shared_union_find.h"
+#include "engine/base/union_find.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/plc/close_triangles.h"
 #include "engine/plc/input_faults.h"
@@ -154,8 +154,8 @@ class VerticalRays {
 // two does not matter.
 //
 // \return sets of sides, and after them a set for infinity
-SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& edges) {
-  SharedUnionFind sides(2 * std::size_t{triangles} + 1);
+UnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& edges) {
+  UnionFind sides(2 * std::size_t{triangles} + 1);
   parallel_for(edges.size(), at_once, [&](std::size_t e) {
     const auto around = edges.sides_around(static_cast<std::uint32_t>(e));
     for (std::size_t k = 0; k < around.size(); ++k)
@@ -165,8 +165,8 @@ SharedUnionFind join_through_sectors(std::uint32_t triangles, const EdgeTable& e
 }
 
 // The sets of triangles connected by edges. Triangles around an edge see each other through its sectors.
-SharedUnionFind components_of(std::uint32_t triangles, SharedUnionFind& sides) {
-  SharedUnionFind components(triangles);
+UnionFind components_of(std::uint32_t triangles, UnionFind& sides) {
+  UnionFind components(triangles);
   parallel_for(triangles, at_once, [&](std::size_t i) {
     const auto t = static_cast<std::uint32_t>(i);
     for (const bool above : {true, false}) components.join(t, triangle_of(sides.find(side_of(t, above))));
@@ -176,8 +176,8 @@ SharedUnionFind components_of(std::uint32_t triangles, SharedUnionFind& sides) {
 
 // One ray per component suffices: the sides of one component that see the same connected part of space are joined
 // already. So on the way up from a component to whatever encloses it, every crossed component joins its outermost side.
-RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, SharedUnionFind& sides,
-                       SharedUnionFind& components, const VerticalRays& rays) {
+RegionMap divide_space(const TriangleSet& triangles, std::span<const Point3> vertices, UnionFind& sides,
+                       UnionFind& components, const VerticalRays& rays) {
   const std::uint32_t infinity = 2 * triangles.size();
   std::vector<std::uint32_t> outer_side(triangles.size());  // of the first triangle of each component
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
@@ -279,12 +279,12 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
 }  // namespace
 
 RegionMap find_regions(const InputPlc& input, const Plc& plc, const PlcParts& parts, std::optional<BoxTree>& tree) {
-  SharedUnionFind sides = join_through_sectors(parts.triangles.size(), parts.edges);
-  SharedUnionFind components = components_of(parts.triangles.size(), sides);
+  UnionFind sides = join_through_sectors(parts.triangles.size(), parts.edges);
+  UnionFind components = components_of(parts.triangles.size(), sides);
   constexpr std::size_t few_rays = 3;
   std::size_t searches = 2 * (input.holes.size() + input.regions.size()) + parts.match.loose.size();
   for (std::uint32_t t = 0; t < parts.triangles.size(); ++t) searches += components.find(t) == t;
-  if (!tree && searches > few_rays) tree.emplace(boxes_of(plc.vertices, parts.triangles));
+  if (!tree && searches > few_rays) tree = tree_of(plc.vertices, parts.triangles);
   const VerticalRays rays(plc.vertices, parts.triangles, tree);
   RegionMap map = divide_space(parts.triangles, plc.vertices, sides, components, rays);
   mark_inside(input, plc, parts.triangles, parts.edges, rays, map);

@@ -10,6 +10,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/base/flatness.h"
+#include "engine/base/hash_table.h"
 #include "engine/base/morton.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
@@ -244,12 +245,7 @@ class FacetTriangulator {
 std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
   RawVector<KeyedIndex> keyed(points.size());
   parallel_for(points.size(), 4096, [&](std::size_t i) {
-    std::uint64_t hash = 0;
-    for (const std::int64_t x : to_integers(points[i])) {
-      hash = (hash ^ static_cast<std::uint64_t>(x)) * 0x9E3779B97F4A7C15u;
-      hash ^= hash >> 32;
-    }
-    keyed[i] = {hash, static_cast<std::uint32_t>(i)};
+    keyed[i] = {HashTraits<IntegerPoint>::hash(to_integers(points[i])), static_cast<std::uint32_t>(i)};
   });
   const std::vector<std::uint32_t> order = sorted_by_key(keyed);
   std::vector<std::uint32_t> first_equal(points.size());
@@ -339,15 +335,13 @@ void keep_triangles(std::span<const char> is_kept, TriangleSet& triangles) {
   triangles = std::move(kept);
 }
 
-std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
+void drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles) {
   std::vector<char> has_area(triangles.size());
   parallel_for(triangles.size(), 4096, [&](std::size_t t) {
     const auto [a, b, c] = triangles.corners[t];
     has_area[t] = a != b && b != c && c != a && !has_no_area(points_of(vertices, triangles.corners[t]));
   });
-  const auto dropped = static_cast<std::uint32_t>(std::ranges::count(has_area, 0));
-  if (dropped > 0) keep_triangles(has_area, triangles);
-  return dropped;
+  if (std::ranges::find(has_area, 0) != has_area.end()) keep_triangles(has_area, triangles);
 }
 
 namespace {
@@ -380,7 +374,7 @@ std::vector<VertexOnTriangle> find_vertices_on_triangles(std::span<const Point3>
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const VertexId v(i);
     if (is_corner[i]) continue;
-    if (!tree) tree.emplace(boxes_of(vertices, triangles));
+    if (!tree) tree = tree_of(vertices, triangles);
     tree->for_each_meeting(box_of(vertices[i]), [&](std::uint32_t t) { test({&v, 1}, t, found); });
   }
   std::ranges::sort(found);
@@ -414,9 +408,8 @@ bool split_triangles_at_vertices(std::span<const Point3> vertices, std::span<con
 
 void split_segments_at_vertices(std::span<const Point3> vertices, SegmentSet& segments) {
   if (segments.ends.empty()) return;
-  RawVector<Box> boxes;
-  for (const auto& [a, b] : segments.ends) boxes.push_back(hull(box_of(vertices[a]), box_of(vertices[b])));
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(segments.ends,
+                     [&](const auto& ends) { return hull(box_of(vertices[ends[0]]), box_of(vertices[ends[1]])); });
   std::vector<std::pair<std::uint32_t, VertexId>> found;  // segment and a vertex on it
   for (std::uint32_t i = 0; i < vertices.size(); ++i)
     tree.for_each_meeting(box_of(vertices[i]), [&](std::uint32_t s) {

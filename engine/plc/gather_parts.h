@@ -42,9 +42,7 @@ void keep_triangles(std::span<const char> is_kept, TriangleSet& triangles);
 /// Drops the triangles that have exactly no area: they bound nothing. CAD programs use them to close the gap where a
 /// vertex of one facet is on the edge of another. The vertex stays, and splits that facet
 /// (`split_triangles_at_vertices`).
-///
-/// \return their number
-std::uint32_t drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles);
+void drop_triangles_without_area(std::span<const Point3> vertices, TriangleSet& triangles);
 
 /// Splits the triangles that contain other vertices (tested exactly), on an edge or inside, so that these become
 /// corners. Triangles that conform in space then also conform by their indices.

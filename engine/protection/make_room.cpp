@@ -44,12 +44,6 @@ std::vector<ProtectedEdge> protected_edges(const plc::Plc& plc, const ProtectedD
   return edges;
 }
 
-RawVector<Box> boxes_of(std::span<const Point3> points) {
-  RawVector<Box> boxes(points.size());
-  parallel_for(points.size(), 4096, [&](std::size_t i) { boxes[i] = box_of(points[i]); });
-  return boxes;
-}
-
 /// A vector of higher precision.
 using LongVector = std::array<long double, 3>;
 
@@ -236,7 +230,7 @@ std::optional<ProtectedDelaunay> with_split(const std::vector<PieceEnds>& edges,
 
 std::vector<std::uint32_t> make_room(std::span<const Point3> points, const plc::Plc& plc, Protection strategy,
                                      ProtectedDelaunay& surface, Avoided avoided, const Progress& progress) {
-  const BoxTree tree(boxes_of(points));
+  const BoxTree tree(points, box_of);
   const std::size_t first_in_the_way = avoided == Avoided::nothing ? 0 : surface.delaunay.vertices.size();
   Harm harm(points, tree, plc, surface, avoided);
   for (int round = 0;; ++round) {

@@ -67,9 +67,7 @@ class CloseSegmentSearch {
   void compare_at_distance() {
     double longest_step = 0;
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) longest_step = std::max(longest_step, step_of(s));
-    RawVector<Box> boxes;
-    for (const Point3& p : plc_.vertices) boxes.push_back(expanded(box_of(p), close_steps * longest_step));
-    const BoxTree tree(std::move(boxes));
+    const BoxTree tree(plc_.vertices, [&](const Point3& p) { return expanded(box_of(p), close_steps * longest_step); });
     for (std::uint32_t s = 0; s < plc_.segments.size(); ++s) {
       const auto& [a, b] = plc_.segments[s].ends;
       tree.for_each_meeting(LineSegment{point(a), point(b) - point(a)}, [&](std::uint32_t v) {

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/geometry/grid.h"
-#include "engine/geometry/integer_points.h"
 #include "engine/geometry/predicates.h"
 
 namespace ccdt::refine {
@@ -15,13 +13,6 @@ using planar::Side;
 
 std::array<Point3, 3> corners_of(const std::array<VertexId, 3>& t, const std::vector<Point3>& points) {
   return {points[t[0]], points[t[1]], points[t[2]]};
-}
-
-/// Puts this axis last, and the other two in the order that keeps the orientation.
-Point3 turned(const Point3& p, int axis) {
-  if (axis == 0) return {p.y, p.z, p.x};
-  if (axis == 1) return {p.z, p.x, p.y};
-  return p;
 }
 
 /// The least barycentric coordinate of a point in a triangle, seen along its normal.
@@ -57,38 +48,8 @@ FacetPlane::FacetPlane(std::span<const std::array<VertexId, 3>> triangles, bool 
                        const std::vector<Point3>& points)
     : points_(points),
       exactly_flat_(exactly_flat),
-      normal_(normalized(plc::sum_of_normals(triangles, points))),
-      axis_(dominant_axis(normal_)) {
-  if (exactly_flat_) {
-    apex_ = points[triangles[0][0]];
-    double extent = 1;
-    for (const auto& t : triangles) extent = std::max(extent, length(points[t[1]] - apex_));
-    int exponent = 0;
-    std::frexp(extent, &exponent);
-    const double up = std::ldexp(1.0, std::min(exponent, 50));
-    (axis_ == 0   ? apex_.x
-     : axis_ == 1 ? apex_.y
-                  : apex_.z) += std::copysign(up, as_array(normal_)[static_cast<std::size_t>(axis_)]);
-  } else {
-    apex_ = {0, 0, 0x1p50};
-    const Point3 n = turned(normal_, axis_);
-    const double rise_s = -n.x / n.z, rise_t = -n.y / n.z;
-    first_ = std::sqrt(1 + rise_s * rise_s);
-    shear_ = rise_s * rise_t / first_;
-    second_ = std::copysign(std::sqrt(1 + rise_t * rise_t - shear_ * shear_), n.z);
-  }
-}
-
-/// Maps the other two coordinates (s, t) linearly, so that distances equal those in the plane. Orientations stay the
-/// same.
-Point3 FacetPlane::flattened(const Point3& p) const {
-  const Point3 s = turned(p, axis_);
-  return {round_to_unit(0.25 * (first_ * s.x + shear_ * s.y)), round_to_unit(0.25 * second_ * s.y), 0};
-}
-
-Point3 FacetPlane::at(VertexId v) const {
-  return exactly_flat_ ? points_[v] : flattened(points_[v]);
-}
+      frame_(triangles, points),
+      apex_(exactly_flat ? frame_.apex(triangles, points) : plc::FacetFrame::apex_of_flattened) {}
 
 int FacetPlane::orient(VertexId a, VertexId b, VertexId c) const {
   return orient3d(at(a), at(b), at(c), apex_);

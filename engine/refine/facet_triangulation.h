@@ -9,14 +9,13 @@
 #include "engine/base/index.h"
 #include "engine/base/point.h"
 #include "engine/planar/triangulation.h"
+#include "engine/plc/facet_frame.h"
 #include "engine/plc/plane_steps.h"
 #include "engine/plc/plc.h"
 
 namespace ccdt::refine {
 
-/// Exact planar predicates within a facet (a model of `planar::Predicates`). A nearly flat facet is flattened: its
-/// vertices are projected along the axis nearest to its normal, stretched to their true distances, and rounded. So they
-/// are exactly in one plane.
+/// Exact planar predicates within a facet (a model of `planar::Predicates`).
 class FacetPlane {
  public:
   /// \param points  of all vertices, including those that come later; must outlive this
@@ -26,14 +25,12 @@ class FacetPlane {
   int incircle(VertexId a, VertexId b, VertexId c, VertexId d) const;
 
  private:
-  Point3 at(VertexId v) const;
-  Point3 flattened(const Point3& p) const;
+  Point3 at(VertexId v) const { return exactly_flat_ ? points_[v] : frame_.flattened(points_[v]); }
 
   const std::vector<Point3>& points_;
   bool exactly_flat_;
-  Point3 normal_, apex_;
-  int axis_;                                   ///< the one nearest to the normal
-  double first_ = 1, shear_ = 0, second_ = 1;  ///< how the other two coordinates are stretched
+  plc::FacetFrame frame_;
+  Point3 apex_;
 };
 
 /// Where a walk toward a point ended: in a triangle that contains it, or at an edge that it must not cross.

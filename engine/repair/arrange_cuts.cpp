@@ -7,7 +7,6 @@
 #include "engine/base/box.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
-#include "engine/base/raw_vector.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/integer_points.h"
 
@@ -76,12 +75,11 @@ class TriangleArranger {
   }
 
   void divide_cuts() {
-    RawVector<Box> boxes;
-    for (const Line& line : lines_) {
-      const Box box = hull(box_of(places_[line.points[0]].rounded), box_of(places_[line.points[1]].rounded));
-      boxes.push_back(expanded(box, DyadicGrid::quantum));  // more than the rounding
-    }
-    BoxTree(std::move(boxes)).for_each_pair([&](std::uint32_t i, std::uint32_t j) { divide(lines_[i], lines_[j]); });
+    const auto box = [&](const Line& line) {
+      const auto end = [&](std::size_t i) { return box_of(places_[line.points[i]].rounded); };
+      return expanded(hull(end(0), end(1)), DyadicGrid::quantum);  // more than the rounding
+    };
+    BoxTree(lines_, box).for_each_pair([&](std::uint32_t i, std::uint32_t j) { divide(lines_[i], lines_[j]); });
   }
 
   void divide(Line& one, Line& other) {

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <ranges>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "engine/base/box.h"
-#include "engine/base/raw_vector.h"
 #include "engine/base/union_find.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/closest_point.h"
@@ -45,12 +44,10 @@ OpenRims find_rims(std::span<const Point3> points, const EdgeTable& edges, doubl
   return rims;
 }
 
-/// Boxes that hold everything within reach of the vertices.
-RawVector<Box> boxes_of(std::span<const Point3> points, const OpenRims& rims) {
-  RawVector<Box> boxes;
-  for (std::size_t i = 0; i < rims.vertices.size(); ++i)
-    boxes.push_back(expanded(box_of(points[rims.vertices[i]]), rims.reach[i]));
-  return boxes;
+/// Its boxes hold everything within reach of the vertices.
+BoxTree tree_of(std::span<const Point3> points, const OpenRims& rims) {
+  return {std::views::iota(std::size_t{0}, rims.vertices.size()),
+          [&](std::size_t i) { return expanded(box_of(points[rims.vertices[i]]), rims.reach[i]); }};
 }
 
 /// Two vertices of rims, by their numbers there.
@@ -64,7 +61,7 @@ struct Candidate {
 /// The pairs within reach of each other, the nearest first.
 std::vector<Candidate> find_candidates(std::span<const Point3> points, const OpenRims& rims) {
   std::vector<Candidate> candidates;
-  BoxTree(boxes_of(points, rims)).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+  tree_of(points, rims).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
     const double squared = squared_length(points[rims.vertices[j]] - points[rims.vertices[i]]);
     const double most = std::min(rims.reach[i], rims.reach[j]);
     if (squared <= most * most) candidates.push_back({squared, i, j});
@@ -106,7 +103,7 @@ struct Beside {
 /// The vertices beside edges, in order along each edge.
 std::vector<Beside> find_vertices_beside(std::span<const Point3> points, const plc::TriangleSet& triangles,
                                          const EdgeTable& edges, const OpenRims& rims) {
-  const BoxTree tree(boxes_of(points, rims));
+  const BoxTree tree = tree_of(points, rims);
   std::vector<Beside> found;
   for (const std::uint32_t e : rims.edges) {
     const Point3 &a = points[edges.ends[e][0]], &b = points[edges.ends[e][1]];

@@ -40,14 +40,10 @@ Parts cut_triangles(const plc::UncheckedPlc& soup, const VertexCuts& cuts, const
   for (const Piece& piece : cuts.pieces) ++first[piece.triangle + 1];
   for (std::size_t t = 0; t < corners.size(); ++t) first[t + 1] += first[t];
   Parts result;
-  result.triangles = parallel_collect<std::uint32_t>(
-      corners.size(), 4096, [&](std::size_t t, std::size_t end, std::vector<std::uint32_t>& found) {
-        for (; t < end; ++t) {
-          const auto& [a, b, c] = corners[t];
-          if (first[t] < first[t + 1] || chains.has(a, b) || chains.has(b, c) || chains.has(c, a))
-            found.push_back(static_cast<std::uint32_t>(t));
-        }
-      });
+  result.triangles = parallel_select(corners.size(), 4096, [&](std::size_t t) {
+    const auto& [a, b, c] = corners[t];
+    return first[t] < first[t + 1] || chains.has(a, b) || chains.has(b, c) || chains.has(c, a);
+  });
   result.parts.resize(result.triangles.size());
   parallel_for(result.triangles.size(), 16, [&](std::size_t i) {
     const std::uint32_t t = result.triangles[i];
@@ -98,14 +94,14 @@ void divide_segments(const EdgeChains& chains, plc::SegmentSet& segments) {
 
 }  // namespace
 
-std::size_t cut_along(VertexCuts cuts, plc::UncheckedPlc& soup) {
+void cut_along(VertexCuts cuts, plc::UncheckedPlc& soup) {
   for (std::size_t attempt = 1;; ++attempt) {
     const EdgeChains chains(soup.plc.vertices, cuts.on_edges);
     const Parts parts = cut_triangles(soup, cuts, chains);
     if (attempt < most_attempts && add_vertices_of_edges(soup.triangles, parts, cuts)) continue;
     replace_triangles(parts, soup.triangles);
     divide_segments(chains, soup.segments);
-    return parts.triangles.size();
+    return;
   }
 }
 

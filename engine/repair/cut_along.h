@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,8 +26,6 @@ inline std::uint64_t key_of_edge(const plc::VertexTriple& t, std::size_t k) {
 
 /// Replaces the triangles that have pieces, or vertices on their edges, by smaller ones that contain these. Segments
 /// are divided with their edges.
-///
-/// \return  how many triangles were replaced
-std::size_t cut_along(VertexCuts cuts, plc::UncheckedPlc& soup);
+void cut_along(VertexCuts cuts, plc::UncheckedPlc& soup);
 
 }  // namespace ccdt::repair

@@ -152,10 +152,10 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
       continue;
     }
     const std::vector<plc::VertexTriple> before = soup.triangles.corners;
-    if (!welds.empty()) counts.cut += cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
+    if (!welds.empty()) cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
     if (soup.triangles.corners != before) continue;
     if (found.pairs == 0) break;  // things near each other are welded as far as possible
-    counts.cut += cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
+    cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
   }
   report(progress, stage, most_rounds_of_cuts, most_rounds_of_cuts);
   return counts;

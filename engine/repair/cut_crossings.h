@@ -10,7 +10,6 @@ namespace ccdt::repair {
 /// What was done where triangles crossed or covered each other.
 struct CutCounts {
   std::size_t pairs = 0;   ///< of triangles that shared more than corners and edges at first
-  std::size_t cut = 0;     ///< triangles that were replaced by smaller ones, in all rounds
   std::size_t rounds = 0;  ///< of cuts and welds; one if nothing almost touches
   std::size_t left = 0;    ///< pairs that still meet after the last round
 };

@@ -183,21 +183,18 @@ class WeldFinder {
 
 Welds find_welds(std::span<const Point3> vertices, const plc::TriangleSet& triangles,
                  const std::vector<std::uint8_t>& is_near, const WeldReach& reach) {
-  std::vector<std::uint32_t> sought;
-  RawVector<Box> boxes;
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    const auto& [a, b, c] = triangles.corners[t];
-    if (!is_near[a] && !is_near[b] && !is_near[c]) continue;
-    sought.push_back(t);
-    boxes.push_back(expanded(bounding_box(plc::points_of(vertices, triangles.corners[t])), 0.5 * reach.vertices));
-  }
-  const RawVector<Box> own = boxes;
-  const BoxTree tree(std::move(boxes));
+  const std::vector<std::uint32_t> sought = parallel_select(triangles.size(), 4096, [&](std::size_t t) {
+    return std::ranges::any_of(triangles.corners[t], [&](VertexId v) { return is_near[v] != 0; });
+  });
+  const auto box = [&](std::uint32_t t) {
+    return expanded(bounding_box(plc::points_of(vertices, triangles.corners[t])), 0.5 * reach.vertices);
+  };
+  const BoxTree tree(sought, box);
   const WeldFinder finder(vertices, triangles, reach);
   const std::vector<Welds> parts = parallel_chunks(sought.size(), 256, [&](std::size_t begin, std::size_t end) {
     Welds welds;
     for (std::size_t i = begin; i < end; ++i)
-      tree.for_each_meeting(own[i], [&](std::uint32_t j) {
+      tree.for_each_meeting(box(sought[i]), [&](std::uint32_t j) {
         if (i < j) finder.look_at(sought[i], sought[j], welds);
       });
     return welds;

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,19 +10,6 @@
 #include "engine/plc/build_plc.h"
 
 namespace ccdt::repair {
-
-/// Points and cells of the grid as keys.
-struct PointTraits {
-  static constexpr IntegerPoint none() {
-    constexpr std::int64_t most = std::numeric_limits<std::int64_t>::max();
-    return {most, most, most};
-  }
-  static std::size_t hash(const IntegerPoint& p) {
-    std::uint64_t h = 0;
-    for (const std::int64_t x : p) h = HashTraits<std::uint64_t>::hash(h ^ static_cast<std::uint64_t>(x));
-    return static_cast<std::size_t>(h);
-  }
-};
 
 /// Finds the vertex at a point, or makes it.
 class VertexFinder {
@@ -44,7 +30,7 @@ class VertexFinder {
 
  private:
   plc::Plc& plc_;
-  HashTable<IntegerPoint, std::uint32_t, PointTraits> known_;
+  HashTable<IntegerPoint, std::uint32_t> known_;
 };
 
 /// Finds the vertex that is nearest to a point, if it is within reach, or makes one.
@@ -94,7 +80,7 @@ class NearVertexFinder {
 
   plc::Plc& plc_;
   double reach_;
-  HashTable<IntegerPoint, VertexId, PointTraits> last_in_cell_;
+  HashTable<IntegerPoint, VertexId> last_in_cell_;
   std::vector<VertexId> before_;  // by vertex: the one before it in its cell
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <ranges>
 #include <vector>
 
 namespace ccdt::sizes {
@@ -95,22 +97,16 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
 }
 
 InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(&background) {
-  RawVector<Box> tetrahedra, vertices;
-  RawVector<double> least_sizes, sizes;
-  for (const auto& v : background.tetrahedra) {
-    std::array<Point3, 4> corners;
-    double size = HUGE_VAL;
-    for (unsigned i = 0; i < 4; ++i) {
-      corners[i] = background.vertices[v[i]];
-      size = std::min(size, background.sizes[v[i]]);
-    }
-    tetrahedra.push_back(bounding_box(corners));
-    least_sizes.push_back(size);
-  }
-  for (const Point3& p : background.vertices) vertices.push_back(box_of(p));
-  for (const double size : background.sizes) sizes.push_back(size);
-  tetrahedra_ = BoxTree(std::move(tetrahedra), least_sizes);
-  vertices_ = BoxTree(std::move(vertices), sizes);
+  const auto box = [&](std::uint32_t v) { return box_of(background.vertices[v]); };
+  const auto size = [&](std::uint32_t v) { return background.sizes[v]; };
+  using Corners = std::array<std::uint32_t, 4>;
+  tetrahedra_ = BoxTree(
+      background.tetrahedra,
+      [&](const Corners& v) { return hull(hull(box(v[0]), box(v[1])), hull(box(v[2]), box(v[3]))); },
+      [&](const Corners& v) {
+        return std::min({size(v[0]), size(v[1]), size(v[2]), size(v[3])});
+      });
+  vertices_ = BoxTree(std::views::iota(std::uint32_t{0}, background.vertices.size()), box, size);
 }
 
 double InterpolatedSizes::least_in(const Box& box, std::uint32_t tetrahedron) const {

@@ -27,10 +27,8 @@ template <>
 struct ccdt::HashTraits<ccdt::sizes::SampleCell> {
   static constexpr sizes::SampleCell none() { return {{}, 0, {}}; }
   static std::size_t hash(const sizes::SampleCell& cell) {
-    std::uint64_t h = std::uint64_t{cell.facet.value} << 32 | static_cast<std::uint32_t>(cell.exponent);
-    for (const std::int64_t x : cell.place)
-      h = ((h ^ h >> 29) + static_cast<std::uint64_t>(x)) * std::uint64_t{0x9E3779B97F4A7C15};
-    return h >> 20;
+    const auto& [x, y, z] = cell.place;
+    return HashTraits<std::array<std::int64_t, 5>>::hash({x, y, z, cell.exponent, cell.facet.value});
   }
 };
 

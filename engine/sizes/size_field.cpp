@@ -2,18 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include "engine/base/raw_vector.h"
 
 namespace ccdt::sizes {
 
 SizeField::SizeField(double largest, double grading, std::span<const SizedPlace> places)
     : largest_(largest), grading_(grading) {
-  RawVector<Box> boxes(places.size());
-  RawVector<double> sizes(places.size());
-  for (std::size_t i = 0; i < places.size(); ++i) boxes[i] = places[i].box, sizes[i] = places[i].size;
-  places_ = BoxTree(std::move(boxes), sizes);
+  places_ = BoxTree(
+      places, [](const SizedPlace& place) { return place.box; }, [](const SizedPlace& place) { return place.size; });
 }
 
 SizeField::SizeField(double largest, const BackgroundSizes& background)

@@ -96,13 +96,10 @@ class Strips {
   void begin(std::vector<FacetEdge> edges) {
     if (edges.size() <= 3) return;  // in a triangle, all edges meet
     const auto facet = static_cast<std::uint32_t>(facets_.size());
-    RawVector<Box> boxes;
-    for (std::uint32_t i = 0; i < edges.size(); ++i) {
-      const auto [a, b] = edges[i].ends;
-      boxes.push_back(hull(box_of(point(a)), box_of(point(b))));
-      open_.push_back({{point(a), point(b)}, facet, i, i});
-    }
-    facets_.push_back({std::move(edges), BoxTree(std::move(boxes))});
+    BoxTree tree(edges, [&](const FacetEdge& e) { return hull(box_of(point(e.ends[0])), box_of(point(e.ends[1]))); });
+    for (std::uint32_t i = 0; i < edges.size(); ++i)
+      open_.push_back({{point(edges[i].ends[0]), point(edges[i].ends[1])}, facet, i, i});
+    facets_.push_back({std::move(edges), std::move(tree)});
   }
 
   void measure(Piece piece, double least, std::vector<SizedPlace>& places) {

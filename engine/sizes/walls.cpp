@@ -21,9 +21,7 @@ Walls::Walls(const plc::Plc& plc, WallRules rules)
         if (facets_of_vertex_[v].empty() || facets_of_vertex_[v].back() != f) facets_of_vertex_[v].push_back(f);
     }
   }
-  RawVector<Box> boxes;
-  for (const FacetTriangle& t : triangles_) boxes.push_back(bounding_box(t.corners));
-  tree_ = BoxTree(std::move(boxes));
+  tree_ = BoxTree(triangles_, [](const FacetTriangle& t) { return bounding_box(t.corners); });
 }
 
 void Walls::measure(double least, std::vector<SizedPlace>& places) {

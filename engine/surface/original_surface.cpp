@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -91,7 +90,6 @@ class SurfaceCutter {
         corners_.push_back(t);
         surface_.facet_of.push_back(f);
         surface_.triangle_normals.push_back(normalized(area));
-        is_turned_.push_back(0);
       }
     }
   }
@@ -99,13 +97,6 @@ class SurfaceCutter {
   void turn(std::uint32_t t) {
     std::swap(corners_[t][1], corners_[t][2]);
     surface_.triangle_normals[t] = -1 * surface_.triangle_normals[t];
-    is_turned_[t] ^= 1;
-  }
-
-  std::array<bool, 2> bounds_inside(std::uint32_t t) const {
-    const plc::Facet& facet = plc_.facets[surface_.facet_of[t]];
-    const bool above = plc_.regions[facet.above].inside, below = plc_.regions[facet.below].inside;
-    return is_turned_[t] ? std::array{below, above} : std::array{above, below};
   }
 
   bool oriented_alike(std::uint32_t e) const {
@@ -141,14 +132,12 @@ class SurfaceCutter {
     surface_.patch_of.assign(count, none);
     surface_.patch_markers.clear();
     surface_.patch_is_flat.clear();
-    surface_.patch_bounds_inside.clear();
     std::vector<std::uint32_t> stack;
     for (std::uint32_t seed = 0; seed < count; ++seed) {
       if (surface_.patch_of[seed] != none) continue;
       const auto patch = static_cast<std::uint32_t>(surface_.patch_markers.size());
       surface_.patch_markers.push_back(marker_of(seed));
       surface_.patch_is_flat.push_back(1);
-      surface_.patch_bounds_inside.push_back(bounds_inside(seed));
       surface_.patch_of[seed] = patch;
       for (stack = {seed}; !stack.empty();) {
         const std::uint32_t t = stack.back();
@@ -229,7 +218,6 @@ class SurfaceCutter {
       corners_.push_back(half);
       surface_.facet_of.push_back(surface_.facet_of[t]);
       surface_.triangle_normals.push_back(surface_.triangle_normals[t]);
-      is_turned_.push_back(is_turned_[t]);
     }
     for (std::uint32_t s = 0; s < segments_.size(); ++s) {
       if (edge_key(segments_.ends[s][0], segments_.ends[s][1]) != edge_key(a, b)) continue;
@@ -288,7 +276,6 @@ class SurfaceCutter {
   std::vector<plc::VertexTriple> corners_;
   plc::EdgeTable edges_;
   std::vector<char> is_feature_;
-  std::vector<char> is_turned_;  // by triangle: is its orientation opposite to its facet's?
   OriginalSurface surface_;
 };
 
@@ -302,11 +289,8 @@ ClosestPoint::ClosestPoint(const OriginalSurface& surface)
     : surface_(surface),
       triangles_(group_indices(surface.patch_markers.size(), surface.triangles.size(),
                                [&](std::size_t t) { return surface.patch_of[t]; })) {
-  for (std::size_t patch = 0; patch < surface.patch_markers.size(); ++patch) {
-    RawVector<Box> boxes;
-    for (const std::uint32_t t : triangles_.of(patch)) boxes.push_back(bounding_box(surface.corners(t)));
-    trees_.emplace_back(std::move(boxes));
-  }
+  for (std::size_t patch = 0; patch < surface.patch_markers.size(); ++patch)
+    trees_.emplace_back(triangles_.of(patch), [&](std::uint32_t t) { return bounding_box(surface.corners(t)); });
 }
 
 Foot ClosestPoint::foot_on(std::uint32_t triangle, const Point3& p) const {

@@ -40,8 +40,6 @@ struct OriginalSurface {
   std::vector<std::uint32_t> patch_of;                  ///< of each triangle
   std::vector<int> patch_markers;
   std::vector<char> patch_is_flat;
-  std::vector<std::array<bool, 2>> patch_bounds_inside;  ///< does the domain lie above it, where its normals point,
-                                                         ///< and below?
   std::vector<std::uint32_t> wedge_points;
   std::vector<std::uint32_t> wedge_patches;
   std::vector<Point3> wedge_normals;  ///< of length one: mean over the wedge, weighted by angles; zero at a tip, such

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,9 +14,7 @@
 #include "engine/base/errors.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/plc/build_plc.h"
-#include "engine/plc/edge_table.h"
-#include "engine/plc/find_facets.h"
-#include "engine/plc/find_overlaps.h"
+#include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/surface/working_mesh.h"
 
@@ -167,22 +166,12 @@ std::vector<Point3> find_crossings(const plc::InputPlc& surface, double flatness
     if (has_no_area(plc::points_of(plc.vertices, t))) places.push_back(plc.world[t[0]]);
   if (!places.empty()) return places;
 
-  plc::EdgeTable edges = plc::make_edge_table(triangles.corners);
-  const plc::SegmentSet segments = plc::gather_segments(surface, plc);
-  const plc::SegmentMatch match = plc::match_segments(segments, edges);
-  const double tolerance = plc::tolerance_of(plc, flatness);
-  const std::vector<double> tolerances(triangles.size(), tolerance);
-  const plc::FacetPatches facets = plc::find_facets(plc.vertices, triangles, edges, match.segment_of, tolerances);
-  const auto add = [&](const plc::Overlap& overlap) { places.push_back(plc.grid.to_world(overlap.where)); };
-  for (const plc::Overlap& o :
-       plc::sort_around_edges(plc.vertices, triangles, facets.is_inner_edge, tolerance, edges, most_places))
-    add(o);
   const std::vector<plc::TrianglePair> close = plc::find_close_triangles(plc.vertices, triangles);
-  for (const plc::Overlap& o : plc::find_overlaps(plc.vertices, triangles, facets, close, most_places)) add(o);
-  const BoxTree tree(plc::boxes_of(plc.vertices, triangles));
-  for (const plc::Overlap& o :
-       plc::find_segment_overlaps(plc.vertices, triangles, segments, match.loose, tree, most_places))
-    add(o);
+  const plc::Overlaps overlaps =
+      plc::connect_parts(plc, std::move(triangles), plc::gather_segments(surface, plc), close, {flatness}, most_places)
+          .overlaps;
+  for (const auto* list : {&overlaps.covering, &overlaps.crossing, &overlaps.of_segments})
+    for (const plc::Overlap& o : *list) places.push_back(plc.grid.to_world(o.where));
   return places;
 }
 
@@ -211,14 +200,12 @@ Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const 
 
 /// Merges places near each other into one, with the longest edge of the triangles there.
 std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface, double usual) {
-  const auto corners = [&](std::uint32_t t) {
+  const auto corners = [&](std::size_t t) {
     const auto& [a, b, c] = surface.triangles[t];
     return std::array<Point3, 3>{surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
-  RawVector<Box> boxes;
-  for (std::uint32_t t = 0; t < surface.triangles.size(); ++t)
-    boxes.push_back(expanded(bounding_box(corners(t)), 1e-6 * usual));
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(std::views::iota(std::size_t{0}, surface.triangles.size()),
+                     [&](std::size_t t) { return expanded(bounding_box(corners(t)), 1e-6 * usual); });
   std::vector<SizedPlace> kept;
   for (const Point3& p : places) {
     double edge = 0;
@@ -235,9 +222,7 @@ std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::In
 
 void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& places, double edges_around,
             std::vector<char>& frozen) {
-  RawVector<Box> boxes;
-  for (const SizedPlace& p : places) boxes.push_back(expanded(p.box, edges_around * p.size));
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(places, [&](const SizedPlace& p) { return expanded(p.box, edges_around * p.size); });
   for (std::uint32_t t = 0; t < original.triangles.size(); ++t) {
     const auto [a, b, c] = original.triangles[t];
     const std::array<Point3, 3> corners = {original.points[a], original.points[b], original.points[c]};
@@ -255,9 +240,7 @@ void freeze(const OriginalSurface& original, const std::vector<SizedPlace>& plac
 /// Remeshes only near some places, with shorter edges.
 void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Progress& progress) {
   constexpr double edges_around = 6;
-  RawVector<Box> boxes;
-  for (const SizedPlace& p : places) boxes.push_back(expanded(p.box, edges_around * p.size));
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(places, [&](const SizedPlace& p) { return expanded(p.box, edges_around * p.size); });
   const std::vector<char> frozen_faces = m.face_is_frozen;
   const std::vector<WorkingMesh::Vertex> vertices = m.vertices;
   for (const FaceHandle f : m.mesh.faces()) {

@@ -116,10 +116,7 @@ void CellComplex::find_last_cells() {
 
 void CellComplex::index_faces() {
   if (face_tree_) return;
-  RawVector<Box> boxes(faces_.size());
-  parallel_for(faces_.size(), grain,
-               [&](std::size_t f) { boxes[f] = faces_[f] == no_corners ? Box{} : box_of_face(faces_[f]); });
-  face_tree_.emplace(std::move(boxes));
+  face_tree_.emplace(faces_, [&](const Triangle& face) { return face == no_corners ? Box{} : box_of_face(face); });
 }
 
 void CellComplex::set_wall(std::uint32_t code) {

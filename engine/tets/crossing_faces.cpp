@@ -10,14 +10,9 @@
 namespace ccdt::tets {
 namespace {
 
-std::array<Point3, 3> points_of(const CellComplex& x, const Triangle& t) {
-  return {x.point(t[0]), x.point(t[1]), x.point(t[2])};
-}
-
 /// Do two triangles share more than corners and edges?
-bool cross(const CellComplex& x, Triangle s, Triangle t) {
-  const int common = put_common_first(s, t);
-  return common == 3 || meet_elsewhere(points_of(x, s), points_of(x, t), common).has_value();
+bool cross(const CellComplex& x, const Triangle& s, const Triangle& t) {
+  return cross_or_fold(s, t, [&](std::uint32_t v) { return x.point(v); });
 }
 
 /// The new faces of a facet. The space between them and the old ones consists of tetrahedra, each made of a new face

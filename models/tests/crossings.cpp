@@ -51,11 +51,11 @@ bool cross_or_fold(std::span<const Point3> p, const Triangle& s, const Triangle&
 
 std::vector<std::pair<std::size_t, std::size_t>> crossings(std::span<const Point3> vertices,
                                                            std::span<const Triangle> triangles) {
-  RawVector<Box> boxes;
-  for (const auto& [a, b, c] : triangles)
-    boxes.push_back(bounding_box(std::array{vertices[a], vertices[b], vertices[c]}));
+  const auto box = [&](const Triangle& t) {
+    return bounding_box(std::array{vertices[t[0]], vertices[t[1]], vertices[t[2]]});
+  };
   std::vector<std::pair<std::size_t, std::size_t>> found;
-  BoxTree(std::move(boxes)).for_each_pair([&](std::size_t i, std::size_t j) {
+  BoxTree(triangles, box).for_each_pair([&](std::size_t i, std::size_t j) {
     if (cross_or_fold(vertices, triangles[i], triangles[j])) found.push_back(std::minmax(i, j));
   });
   std::sort(found.begin(), found.end());

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "engine/base/box.h"
-#include "engine/base/raw_vector.h"
 #include "engine/geometry/balls.h"
 #include "engine/geometry/box_tree.h"
 
@@ -67,10 +66,8 @@ int side_of_smallest_sphere(const std::array<Point3, 3>& triangle, const Point3&
 
 std::vector<SphereContent> contents_of_smallest_spheres(std::span<const std::array<VertexId, 3>> triangles,
                                                         std::span<const Point3> points) {
-  RawVector<Box> boxes(points.size());
-  std::ranges::transform(points, boxes.begin(), [](const Point3& p) { return box_of(p); });
   const Box all = bounding_box(points);
-  const BoxTree tree(std::move(boxes));
+  const BoxTree tree(points, [](const Point3& p) { return box_of(p); });
   std::vector<SphereContent> contents;
   for (const std::array<VertexId, 3>& t : triangles) {
     const std::array<Point3, 3> corners = {points[t[0]], points[t[1]], points[t[2]]};
