@@ -82,6 +82,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
              "whether the mesh must be constrained Delaunay");
   add_choice(*verb, "--surface", command->options.surface, "which surface the mesh must have");
   add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input must be");
+  add_choice(*verb, "--lists", command->options.lists, "what the mesh must list");
   add_threads(*verb, command->threads);
   verb->add_flag("--details", command->details, "list all checks, not only those that failed");
   verb->add_option("--report", command->report, "write all checks to this file as JSON (schema ccdt.verify/1)");

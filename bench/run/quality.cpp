@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/run/statistics.h"
+#include "engine/base/box.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 
@@ -206,12 +207,16 @@ Quality measure_quality(const mesh::TetMesh& mesh) {
   constexpr std::size_t chunk_length = 8192;
   const std::size_t size = mesh.tetrahedra.size();
   const DihedralBins bins;
+  // A power of two changes no digit, and products of lengths neither overflow nor vanish.
+  const double extent = largest_extent(mesh.vertices);
+  const int exponent = extent > 0 ? std::ilogb(extent) : 0;
+  const double scale = std::ldexp(1, -exponent);
   RawVector<double> volumes(size), r(size), aspect(size), radius_edge(size);
   const auto turns_of_chunks = parallel_chunks(size, chunk_length, [&](std::size_t begin, std::size_t end) {
     DihedralTurns turns;
     for (std::size_t i = begin; i < end; ++i) {
       std::array<Point3, 4> t;
-      for (std::size_t k = 0; k < 4; ++k) t[k] = mesh.vertices[mesh.tetrahedra[i][k]];
+      for (std::size_t k = 0; k < 4; ++k) t[k] = scale * mesh.vertices[mesh.tetrahedra[i][k]];
       const Shape shape = shape_of(t);
       volumes[i] = shape.six_volumes / 6;
       r[i] = shape_measure_of(shape);
@@ -224,7 +229,7 @@ Quality measure_quality(const mesh::TetMesh& mesh) {
   Quality quality;
   quality.dihedral_degrees = dihedral_of(turns_of_chunks);
   // In the order of the mesh, so that the rounding does not depend on the threads.
-  quality.volume = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  quality.volume = std::ldexp(std::accumulate(volumes.begin(), volumes.end(), 0.0), 3 * exponent);
   const std::array<std::span<double>, 3> values = {r, aspect, radius_edge};
   const std::array<const MeasureEdges*, 3> edges = {&r_edges, &r_edges, &radius_edge_edges};
   const std::array<Quality::Measure*, 3> measures = {&quality.r, &quality.aspect_ratio, &quality.radius_edge_ratio};

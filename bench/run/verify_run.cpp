@@ -32,7 +32,9 @@ std::vector<std::string> options_of(const Case& asked) {
   for (std::size_t i = 0; i + 1 < asked.options.size(); ++i)
     if (asked.options[i] == "--boundary" || asked.options[i] == "--flatness")
       options.insert(options.end(), {asked.options[i], asked.options[i + 1]});
-  if (!baselines::mesher(asked.mesher).keeps_surface) options.insert(options.end(), {"--surface", "own"});
+  const baselines::Mesher& mesher = baselines::mesher(asked.mesher);
+  if (!mesher.keeps_surface) options.insert(options.end(), {"--surface", "own"});
+  if (!mesher.description.empty()) options.insert(options.end(), {"--lists", "tetrahedra"});
   return options;
 }
 

@@ -32,12 +32,14 @@ const verify::Check& check_named(const verify::Verification& verification, const
   return *found;
 }
 
-void expect_ok(const MeshedInput& m, const verify::VerifyOptions& options) {
+void expect_ok(const MeshedInput& m, verify::VerifyOptions options) {
+  options.lists = tetrahedra_alone.lists;
   const verify::Verification v = verify::verify(m.input, m.mesh, options);
   EXPECT_TRUE(v.ok()) << all_lines(v);
 }
 
-void expect_failure(const MeshedInput& m, const std::string& name, const verify::VerifyOptions& options) {
+void expect_failure(const MeshedInput& m, const std::string& name, verify::VerifyOptions options) {
+  options.lists = tetrahedra_alone.lists;
   const verify::Verification v = verify::verify(m.input, m.mesh, options);
   EXPECT_FALSE(v.ok());
   const verify::Check& check = check_named(v, name);

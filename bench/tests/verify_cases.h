@@ -10,9 +10,12 @@ namespace ccdt {
 std::string all_lines(const verify::Verification& verification);
 const verify::Check& check_named(const verify::Verification& verification, const std::string& name);
 
-void expect_ok(const MeshedInput& m, const verify::VerifyOptions& options = {});
+/// Most of these meshes list no faces.
+inline constexpr verify::VerifyOptions tetrahedra_alone = {.lists = verify::VerifyOptions::Lists::tetrahedra};
+
+void expect_ok(const MeshedInput& m, verify::VerifyOptions options = tetrahedra_alone);
 /// The check of that name fails, and says where.
-void expect_failure(const MeshedInput& m, const std::string& name, const verify::VerifyOptions& options = {});
+void expect_failure(const MeshedInput& m, const std::string& name, verify::VerifyOptions options = tetrahedra_alone);
 
 int everywhere(int, int, int);
 int around_a_hole(int i, int j, int k);

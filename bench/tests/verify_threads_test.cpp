@@ -109,7 +109,7 @@ constexpr std::array<unsigned, 3> several_threads = {2, 3, 8};
 TEST(VerifyThreads, FindTheSame) {
   for (const Case& c : cases()) {
     for (const auto surface : {verify::VerifyOptions::Surface::same, verify::VerifyOptions::Surface::own}) {
-      const verify::VerifyOptions options{.surface = surface};
+      const verify::VerifyOptions options{.surface = surface, .lists = verify::VerifyOptions::Lists::tetrahedra};
       const auto run = [&] { return verify::verify(c.meshed.input, c.meshed.mesh, options); };
       const verify::Verification one = with_threads(1, run);
       EXPECT_TRUE(surface == verify::VerifyOptions::Surface::own || one.ok() == c.right) << c.name << all_lines(one);

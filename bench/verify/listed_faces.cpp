@@ -39,6 +39,27 @@ Check check_listed_faces(const Topology& topology) {
   return check;
 }
 
+Check check_listed_facets(const Topology& topology, const FacetMatches& matches, bool required) {
+  const mesh::TetMesh& mesh = topology.mesh;
+  Check check{.name = listed_facets_check, .checked = mesh.faces.size()};
+  if (mesh.faces.empty() && required)
+    fail(check, [&] { return "none of the " + std::to_string(matches.faces.size()) + " faces on facets is listed"; });
+  if (mesh.faces.empty()) return check;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const std::uint32_t face = topology.listed_faces[i];
+    if (face == none || topology.on_boundary(face) || matches.is_matched[face]) continue;
+    fail(check, [&] { return described(mesh, mesh.faces[i]) + " is listed, but is inside and on no facet"; });
+  }
+  for (const MatchedFace& matched : matches.faces) {
+    if (topology.listed[matched.face] || topology.on_boundary(matched.face)) continue;
+    ++check.checked;
+    fail(check, [&] {
+      return described(mesh, vertices_of_face(topology, matched.face)) + " is on a facet, but not listed";
+    });
+  }
+  return check;
+}
+
 Check check_face_markers(const Topology& topology, const Surface& surface, const FacetMatches& matches) {
   const mesh::TetMesh& mesh = topology.mesh;
   Check check{.name = "face markers"};

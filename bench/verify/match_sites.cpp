@@ -39,6 +39,30 @@ void match_nearest(const plc::InputPlc& input, const Topology& topology, const T
   }
 }
 
+/// Gives the other input vertices sites of their own; those within `tolerances.place` of an earlier one its site.
+void add_sites(const plc::InputPlc& input, const Tolerances& tolerances, Sites& sites) {
+  std::vector<std::uint32_t> left;
+  RawVector<Box> places;
+  for (std::uint32_t i = 0; i < input.vertices.size(); ++i) {
+    if (sites.of_input[i] != none) continue;
+    left.push_back(i);
+    places.push_back(box_of(input.vertices[i]));
+  }
+  const ScaledBoxTree tree(std::move(places), tolerances);
+  for (const std::uint32_t i : left) {
+    if (sites.of_input[i] != none) continue;
+    const auto site = static_cast<std::uint32_t>(sites.position.size());
+    const Point3& p = input.vertices[i];
+    sites.position.push_back(p);
+    sites.of_input[i] = site;
+    tree.for_each_meeting(expanded(box_of(p), tolerances.place), [&](std::uint32_t k) {
+      std::uint32_t& other = sites.of_input[left[k]];
+      const double most = tolerances.place * tolerances.place;
+      if (other == none && squared_length(input.vertices[left[k]] - p) <= most) other = site;
+    });
+  }
+}
+
 /// A vertex of the mesh that is exactly where a vertex of the input is.
 struct SamePlace {
   std::uint32_t of_mesh, of_input;
@@ -66,13 +90,7 @@ Sites match_sites(const plc::InputPlc& input, const Topology& topology, const To
   if (std::ranges::count(sites.of_input, none) == 0) return sites;
 
   match_nearest(input, topology, tolerances, sites);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    std::uint32_t& site = sites.of_input[i];
-    if (site == none) site = sites.of_input[first[i]];
-    if (site != none) continue;
-    site = static_cast<std::uint32_t>(sites.position.size());
-    sites.position.push_back(input.vertices[i]);
-  }
+  add_sites(input, tolerances, sites);
   return sites;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -313,14 +314,14 @@ void split_edges(Surface& surface) {
 }  // namespace
 
 Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
-  const Box bounds = bounding_box(input.vertices);
-  const Point3 extent = bounds.high - bounds.low;
-  const double box = input.vertices.empty() ? 0 : std::max({extent.x, extent.y, extent.z});
+  const double box = largest_extent(input.vertices);
   // A mesher may measure flatness against the next power of two above the box, and on both sides of a plane that is not
   // ours.
   constexpr double slack = 4;
   const double flat = slack * flatness_for(input.vertices, flatness) * box;
-  return {box, 0.1 * flatness * box, flat, slack * flatness * box};
+  // New vertices of the mesh are rounded, too.
+  const double rounding = std::numeric_limits<double>::epsilon() * largest_coordinate(input.vertices);
+  return {box, 0.1 * flatness * box + rounding, flat + rounding, slack * flatness * box + rounding};
 }
 
 Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness) {

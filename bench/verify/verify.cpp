@@ -14,10 +14,12 @@
 #include "bench/verify/edit_surface.h"
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
+#include "bench/verify/listed_edges.h"
 #include "bench/verify/listed_faces.h"
-#include "bench/verify/on_grid.h"
+#include "bench/verify/coordinates.h"
 #include "engine/base/parallel.h"
 #include "engine/base/shared_progress.h"
+#include "engine/plc/gather_parts.h"
 
 // Why these checks are enough. Let d(x) be the number of tetrahedra around a point x; all are positively oriented, so d
 // changes only across the boundary of the mesh. Every boundary face belongs to a part that stands for exactly one patch
@@ -177,8 +179,8 @@ Check check_vertices(const plc::InputPlc& input, const Surface& surface, const R
 }
 
 /// Every segment and every feature edge in or on the domain is a chain of mesh edges.
-Check check_segments(const Surface& surface, const Chains& edges, const Chains& segments,
-                     const std::vector<bool>& features, const Regions& regions, RaysIfNeeded& rays) {
+Check check_segments(const Surface& surface, const SurfaceEdges& lines, const Regions& regions, RaysIfNeeded& rays) {
+  const auto& [features, edges, segments] = lines;
   Check check{.name = segments_check};
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (!features[e]) continue;
@@ -241,9 +243,8 @@ Check check_boundary(const Topology& topology, const FacetMatches& matches) {
 /// The engine rounds to 2^-33 of the next power of two above the box; and the coordinates in the file are rounded to
 /// doubles.
 double largest_rounding(const plc::InputPlc& input, const Tolerances& tolerances) {
-  double largest = 0;
-  for (const Point3& p : input.vertices) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  return std::ldexp(tolerances.box, -32) + std::numeric_limits<double>::epsilon() * largest;
+  return std::ldexp(tolerances.box, -32) +
+         std::numeric_limits<double>::epsilon() * largest_coordinate(input.vertices);
 }
 
 bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {
@@ -272,14 +273,13 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
     regions = find_regions(input, surface);
     let_vertices_slide(surface, regions);
   }
-  std::vector<bool> features;
-  Chains edges, segments;
+  SurfaceEdges lines;
   FacetMatches matches;
   const auto match = [&] {
-    features = find_features(surface);
-    edges = find_chains(topology, surface, surface.edges);
-    segments = find_chains(topology, surface, surface.segments);
-    matches = match_facets(topology, surface, edges, features);
+    lines.features = find_features(surface);
+    lines.edges = find_chains(topology, surface, surface.edges);
+    lines.segments = find_chains(topology, surface, surface.segments);
+    matches = match_facets(topology, surface, lines.edges, lines.features);
   };
   parallel_both(match, [&] {
     if (!may_slide) regions = find_regions(input, surface);
@@ -291,10 +291,14 @@ void check_against_input(const plc::InputPlc& input, const Topology& topology, c
     resolve_unknown(assigned, regions);
     RaysIfNeeded rays(surface);
     checks.push_back(check_vertices(input, surface, regions, rays));
-    checks.push_back(check_segments(surface, edges, segments, features, regions, rays));
+    checks.push_back(check_segments(surface, lines, regions, rays));
     checks.push_back(check_facets(surface, matches, regions));
     checks.push_back(check_boundary(topology, matches));
+    const bool lists_all = options.lists == VerifyOptions::Lists::all;
+    checks.push_back(check_listed_facets(topology, matches, lists_all));
     checks.push_back(check_face_markers(topology, surface, matches));
+    checks.push_back(check_listed_edges(input, topology, surface, lines, lists_all));
+    checks.push_back(check_edge_markers(input, topology, surface));
     check_domain(input, topology.mesh, surface, regions, assigned, result);
   };
   if (options.delaunay == VerifyOptions::Delaunay::no) return compare_domain();
@@ -346,7 +350,7 @@ void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, c
   if (holds_up_to(segments_check, result))
     check_until_right(input, topology, find_tolerances, options.flatness / 10, options, progress, before, result);
   if (result.ok()) return;
-  const OnGrid rounded = put_on_grid(input, topology.mesh);
+  const InputAndMesh rounded = put_on_grid(input, topology.mesh);
   if (check_orientation(rounded.mesh, progress).failed == 0)
     check_until_right(rounded.input, find_topology(rounded.mesh), find_tolerances_on_grid, options.flatness, options,
                       progress, before, result);
@@ -383,6 +387,9 @@ Check check_crossings(const plc::InputPlc& boundary, bool required) {
   return check;
 }
 
+/// Those that need the facets inside, of which the boundary knows nothing.
+constexpr const char* checks_of_inner_parts[] = {regions_check, listed_facets_check, listed_edges_check};
+
 /// The boundary of the mesh encloses its tetrahedra, and each point once. The argument is the same as above, with the
 /// boundary as the input.
 /// \pre  the boundary does not cross itself
@@ -392,7 +399,8 @@ Check check_enclosed(const plc::InputPlc& boundary, const Topology& topology, co
                       progress, by_itself);
   Check enclosed{.name = "boundary that encloses the tetrahedra once", .checked = boundary.triangles.size()};
   for (const Check& check : by_itself.checks) {
-    if (!check.required || check.name == regions_check) continue;  // regions are bounded by inner faces as well
+    if (!check.required || std::ranges::find(checks_of_inner_parts, check.name) != std::end(checks_of_inner_parts))
+      continue;
     enclosed.failed += check.failed;
     enclosed.examples.insert(enclosed.examples.end(), check.examples.begin(), check.examples.end());
   }
@@ -412,10 +420,8 @@ void check_own_surface(const plc::InputPlc& input, const Topology& topology, con
   result.input_volume = input_volume(surface, find_regions(input, surface));
 }
 
-}  // namespace
-
-Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options,
-                    const Progress& progress) {
+Verification verify_as_it_is(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options,
+                             const Progress& progress) {
   Verification result;
   auto& checks = result.checks;
   checks.push_back(check_coordinates(mesh));
@@ -434,6 +440,24 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
     check_at_tolerances(input, topology, options, progress, result);
   if (options.surface == VerifyOptions::Surface::same && result.ok())
     checks.push_back(check_crossings(boundary_of(topology), false));
+  return result;
+}
+
+/// Products of lengths between 2^-60 and 2^60 neither overflow nor vanish.
+constexpr int usual_exponent = 60;
+
+}  // namespace
+
+Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options,
+                    const Progress& progress) {
+  plc::check_extent(input);
+  const double extent = largest_extent(input.vertices);
+  const int exponent = extent > 0 ? std::ilogb(extent) : 0;
+  if (std::abs(exponent) <= usual_exponent) return verify_as_it_is(input, mesh, options, progress);
+  const auto scaled = scale_by(std::ldexp(1, -exponent), input, mesh);  // which changes no digit
+  Verification result = verify_as_it_is(scaled.input, scaled.mesh, options, progress);
+  result.mesh_volume = std::ldexp(result.mesh_volume, 3 * exponent);
+  result.input_volume = std::ldexp(result.input_volume, 3 * exponent);
   return result;
 }
 

@@ -26,6 +26,9 @@ struct VerifyOptions {
   /// Whose surface must the mesh have? `same`: the input's; its facets, segments and vertices are there. `own`: the
   /// mesher made another one, which must enclose the tetrahedra once; the input does not matter.
   enum class Surface { same, own } surface = Surface::same;
+  /// What must the mesh list? `all`: the faces on facets, and the edges on segments with markers. `tetrahedra`: these
+  /// alone. Other elements that it lists must be right, and complete.
+  enum class Lists { all, tetrahedra } lists = Lists::all;
 };
 
 constexpr auto names_of(VerifyOptions::Delaunay) {
@@ -46,6 +49,13 @@ constexpr auto names_of(VerifyOptions::Surface) {
   return std::to_array<NamedValue<VerifyOptions::Surface>>(
       {{same, "same", "that of the input, with all its facets, segments and vertices"},
        {own, "own", "any surface that encloses the tetrahedra once, for meshers that make their own surface"}});
+}
+
+constexpr auto names_of(VerifyOptions::Lists) {
+  using enum VerifyOptions::Lists;
+  return std::to_array<NamedValue<VerifyOptions::Lists>>(
+      {{all, "all", "the faces on facets and the edges on segments with markers, too"},
+       {tetrahedra, "tetrahedra", "these alone; other elements, if there are any, must still be right and complete"}});
 }
 
 /// One property that was checked.
@@ -71,6 +81,7 @@ struct Verification {
 /// any mesher's output.
 ///
 /// \param input  its polygons must be planar; see `plc::triangulate_warped_facets`
+/// \throw InputError  see `plc::check_extent`
 Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options = {},
                     const Progress& progress = {});
 

@@ -75,6 +75,19 @@ inline Box bounding_box(std::span<const Point3> points) {
   return box;
 }
 
+/// The largest extent of the points along an axis; 0 if there are none.
+inline double largest_extent(std::span<const Point3> points) {
+  const Box box = bounding_box(points);
+  return points.empty() ? 0 : std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
+}
+
+/// The largest magnitude of a coordinate; 0 if there are no points.
+inline double largest_coordinate(std::span<const Point3> points) {
+  double largest = 0;
+  for (const Point3& p : points) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+  return largest;
+}
+
 inline Box intersection(const Box& a, const Box& b) {
   return {componentwise_max(a.low, b.low), componentwise_min(a.high, b.high)};
 }

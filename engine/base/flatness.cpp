@@ -36,14 +36,10 @@ bool are_rounded_to_single(std::span<const Point3> points) {
 }  // namespace
 
 double flatness_for(std::span<const Point3> points, double tolerance) {
-  if (tolerance != usual_flatness || !are_rounded_to_single(points)) return tolerance;
-  const auto [low, high] = bounding_box(points);
-  const Point3 size = high - low;
-  const double extent = std::max({size.x, size.y, size.z});
-  const double largest = std::max(
-      {std::fabs(low.x), std::fabs(low.y), std::fabs(low.z), std::fabs(high.x), std::fabs(high.y), std::fabs(high.z)});
-  constexpr double rounding = 0x1p-24;
-  return extent > 0 ? std::max(tolerance, most_roundings * rounding * largest / extent) : tolerance;
+  if (tolerance != usual_flatness) return tolerance;
+  const double rounding = are_rounded_to_single(points) ? 0x1p-24 : 0x1p-53;
+  const double extent = largest_extent(points);
+  return extent > 0 ? std::max(tolerance, most_roundings * rounding * largest_coordinate(points) / extent) : tolerance;
 }
 
 }  // namespace ccdt

@@ -265,8 +265,22 @@ std::vector<std::uint32_t> find_first_equal(std::span<const Point3> points) {
 
 }  // namespace
 
+bool has_usual_extent(std::span<const Point3> points) {
+  const double extent = largest_extent(points);
+  return extent == 0 || (extent >= least_extent && extent <= most_extent);
+}
+
+void check_extent(const InputPlc& input) {
+  if (has_usual_extent(input.vertices)) return;
+  std::ostringstream words;
+  words << "the bounding box has an extent of " << largest_extent(input.vertices) << "; the limits are "
+        << least_extent << " and " << most_extent;
+  throw InputError(words.str(), {.file = input.name}, "use another unit of length");
+}
+
 void snap_vertices(const InputPlc& input, Plc& plc) {
   check_coordinates(input);
+  check_extent(input);
   plc.grid = make_grid(input.vertices);
   const auto count = static_cast<std::uint32_t>(input.vertices.size());
   RawVector<Point3> snapped(count);
@@ -298,9 +312,7 @@ void snap_vertices(const InputPlc& input, Plc& plc) {
 }
 
 double tolerance_of(const Plc& plc, double flatness) {
-  const Box box = bounding_box(plc.vertices);
-  const Point3 size = box.high - box.low;
-  return flatness_for(plc.world, flatness) * std::max({size.x, size.y, size.z});
+  return flatness_for(plc.world, flatness) * largest_extent(plc.vertices);
 }
 
 TriangleSet gather_triangles(const InputPlc& input, const Plc& plc) {

@@ -9,10 +9,19 @@
 
 namespace ccdt::plc {
 
+/// The extents of inputs: volumes and measures of quality neither overflow nor vanish.
+inline constexpr double least_extent = 1e-100, most_extent = 1e100;
+
+/// Are the points as far apart as these limits allow, or all in one place?
+bool has_usual_extent(std::span<const Point3> points);
+
+/// \throw InputError  the vertices have another extent
+void check_extent(const InputPlc& input);
+
 /// Fills the grid, the vertices and their data: rounds the vertices of the input to the dyadic grid and merges those
 /// that fall on the same point. Ids are given in the order of first appearance.
 ///
-/// \throw InputError  a coordinate that is not finite, with the number of its vertex
+/// \throw InputError  a coordinate that is not finite, with the number of its vertex; or see `check_extent`
 void snap_vertices(const InputPlc& input, Plc& plc);
 
 /// Converts a tolerance, adapted to the vertices (`flatness_for`), from a fraction of the bounding box to grid units.

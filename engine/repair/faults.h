@@ -14,6 +14,7 @@ namespace ccdt::repair {
 /// What can be wrong with an input.
 enum class FaultKind : std::uint8_t {
   coordinates,
+  extent,
   no_facets,
   polygons,
   duplicate_facets,
@@ -38,6 +39,7 @@ constexpr auto names_of(FaultKind) {
   using enum FaultKind;
   return std::to_array<NamedValue<FaultKind>>(
       {{coordinates, "coordinates", "vertices with a coordinate that is not a finite number"},
+       {extent, "extent", "the input is too large or too small for computations with numbers of double precision"},
        {no_facets, "no-facets", "the input has no facet with an area"},
        {polygons, "polygons", "facets that are not polygons in one plane"},
        {duplicate_facets, "duplicate-facets", "facets with the same corners as another one"},

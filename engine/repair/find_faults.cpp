@@ -83,6 +83,16 @@ bool find_coordinates(const InputPlc& input, Diagnosis& diagnosis) {
   return true;
 }
 
+bool find_extent(const InputPlc& input, Diagnosis& diagnosis) {
+  try {
+    plc::check_extent(input);
+    return false;
+  } catch (const InputError& error) {
+    diagnosis.faults.push_back({.kind = FaultKind::extent, .is_error = true, .count = 1, .detail = error.what()});
+    return true;
+  }
+}
+
 void find_vertex_faults(const InputPlc& input, const Plc& plc, Diagnosis& diagnosis) {
   std::vector<char> is_used(input.vertices.size(), 0);
   for (const auto& corners : input.triangles)
@@ -268,7 +278,7 @@ Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& pr
   Diagnosis diagnosis = describe(input);
   find_unusual_file(input, diagnosis);
   report(progress, check_stage, 0, check_steps);
-  if (find_coordinates(input, diagnosis)) return diagnosis;
+  if (find_coordinates(input, diagnosis) || find_extent(input, diagnosis)) return diagnosis;
   Soup soup;
   try {
     soup = gather_soup(input, options);

@@ -31,9 +31,7 @@ bool is_surface(const InputPlc& input) {
 
 double widest_gap(const RepairOptions& options, const plc::Plc& plc) {
   if (options.gap > 0) return options.gap / plc.grid.unit;
-  const Box box = bounding_box(plc.vertices);
-  const Point3 size = box.high - box.low;
-  return usual_gap * std::max({size.x, size.y, size.z});
+  return usual_gap * largest_extent(plc.vertices);
 }
 
 /// Notes what was done.
@@ -191,7 +189,7 @@ Repaired repair_input(const InputPlc& input, const RepairOptions& options, const
   plc::UncheckedPlc& parts = soup.parts;
   steps.add(
       {"invalid_polygons", "facets removed because they are not polygons in one plane", soup.invalid_polygons.size()});
-  steps.add({"bent_facets", "polygons triangulated because they are not planar", soup.input.warped.count});
+  steps.add({"warped_facets", "polygons triangulated because they are not planar", soup.input.warped.count});
   steps.add({"without_area", "facets without area removed", soup.without_area.size()});
   steps.add({"equal_vertices", "vertices merged with one at the same place",
              input.vertices.size() - parts.plc.vertices.size()});

@@ -89,7 +89,7 @@ class Prover {
  private:
   void prove_all() {
     MeshOptions options;
-    options.edge_length = 0.25 * largest_extent();
+    options.edge_length = 0.25 * largest_extent(input_.vertices);
     options.lattice = Lattice::none;
     options.threads = 1;  // several seeds run at the same time
     options.delaunay = DelaunayMethod::insert, options.least_core = 0;
@@ -115,11 +115,6 @@ class Prover {
     }
     options.protection = Protection::midpoint;
     if (const auto result = mesh_if_it_ends(options)) compare(options, result->mesh);
-  }
-
-  double largest_extent() const {
-    const auto [low, high] = bounding_box(input_.vertices);
-    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   }
 
   MeshResult mesh(const MeshOptions& options, double seconds) {
