@@ -38,7 +38,10 @@ TEST(Verify, FlatFacetsMayBeBentByRoundingToSinglePrecision) {
   for (const bool turned : {false, true}) {
     const MeshedInput m = make_grid_mesh({4, 4, 4}, everywhere, turned, far_away);
     expect_ok(m);
-    EXPECT_EQ(verify::verify(m.input, m.mesh, {.flatness = 1.01 * usual_flatness, .lists = verify::VerifyOptions::Lists::tetrahedra}).ok(), !turned);
+    EXPECT_EQ(verify::verify(m.input, m.mesh,
+                             {.flatness = 1.01 * usual_flatness, .lists = verify::VerifyOptions::Lists::tetrahedra})
+                  .ok(),
+              !turned);
   }
 }
 

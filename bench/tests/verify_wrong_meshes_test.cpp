@@ -35,9 +35,7 @@ void add_facet(const std::array<Point3, 4>& corners, int marker, InputPlc& plc) 
 
 /// The sides of a box between two corners.
 void add_box(const Point3& low, const Point3& high, int marker, InputPlc& plc) {
-  const auto at = [&](int i) {
-    return Point3{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z};
-  };
+  const auto at = [&](int i) { return Point3{i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z}; };
   for (const auto& [a, b, c, d] : std::to_array<std::array<int, 4>>(
            {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}))
     add_facet({at(a), at(b), at(c), at(d)}, marker, plc);
@@ -270,11 +268,13 @@ const std::vector<Mistake> mistakes_in_vertices = {
     {"a moved corner", [](TetMesh& m, Random& r) { any_corner(m, r).y += 1e-6; }},
     {"a vertex that left its facet",
      [](TetMesh& m, Random& r) { m.vertices[m.faces[face_with(outer_marker, m, r)][0]].x += 1e-6; }},
-    {"a vertex that left its segment", [](TetMesh& m, Random&) {
+    {"a vertex that left its segment",
+     [](TetMesh& m, Random&) {
        const Point3 end = {3.3, 0.4, 0.5};
        *std::ranges::find(m.vertices, end) = end + Point3{0, 1e-6, 0};
      }},
-    {"an isolated vertex that moved", [](TetMesh& m, Random&) {
+    {"an isolated vertex that moved",
+     [](TetMesh& m, Random&) {
        const Point3 given = {2.75, 1.5, 1.5};
        *std::ranges::find(m.vertices, given) = given + Point3{0, 0, 1e-6};
      }},
@@ -300,9 +300,18 @@ const std::vector<Mistake> mistakes_in_vertices = {
        std::swap(m.vertices[t[0]], m.vertices[t[1]]);
      }},
     {"a scaled mesh", [](TetMesh& m, Random&) { move_all([](const Point3& p) { return 1.000001 * p; }, m); }},
-    {"a shifted mesh", [](TetMesh& m, Random&) { move_all([](const Point3& p) { return p + Point3{0, 0, 1e-6}; }, m); }},
-    {"a mirrored mesh", [](TetMesh& m, Random&) { move_all([](const Point3& p) { return Point3{p.x, p.y, 2 - p.z}; }, m); }},
-    {"a flat mesh", [](TetMesh& m, Random&) { move_all([](const Point3& p) { return Point3{p.x, p.y, 0}; }, m); }},
+    {"a shifted mesh",
+     [](TetMesh& m, Random&) {
+       move_all([](const Point3& p) { return p + Point3{0, 0, 1e-6}; }, m);
+     }},
+    {"a mirrored mesh",
+     [](TetMesh& m, Random&) {
+       move_all([](const Point3& p) { return Point3{p.x, p.y, 2 - p.z}; }, m);
+     }},
+    {"a flat mesh",
+     [](TetMesh& m, Random&) {
+       move_all([](const Point3& p) { return Point3{p.x, p.y, 0}; }, m);
+     }},
 };
 
 const std::vector<Mistake> mistakes_in_regions = {
@@ -365,11 +374,13 @@ const std::vector<Mistake> mistakes_in_faces = {
     {"a wrong marker in the slit", [](TetMesh& m, Random& r) { m.face_markers[face_with(slit_marker, m, r)] = 0; }},
     {"exchanged markers",
      [](TetMesh& m, Random&) {
-       for (int& marker : m.face_markers) marker = marker == wall_marker ? hole_marker : marker == hole_marker ? wall_marker : marker;
+       for (int& marker : m.face_markers)
+         marker = marker == wall_marker ? hole_marker : marker == hole_marker ? wall_marker : marker;
      }},
     {"all markers 0", [](TetMesh& m, Random&) { std::ranges::fill(m.face_markers, 0); }},
     {"too few markers", [](TetMesh& m, Random&) { m.face_markers.pop_back(); }},
-    {"the markers of others", [](TetMesh& m, Random&) { std::ranges::rotate(m.face_markers, m.face_markers.begin() + 1); }},
+    {"the markers of others",
+     [](TetMesh& m, Random&) { std::ranges::rotate(m.face_markers, m.face_markers.begin() + 1); }},
     {"a vertex that does not exist",
      [](TetMesh& m, Random& r) { any_of(m.faces, r)[0] = static_cast<std::uint32_t>(m.vertices.size()); }},
     {"a vertex twice",
@@ -380,7 +391,8 @@ const std::vector<Mistake> mistakes_in_faces = {
 };
 
 const std::vector<Mistake> mistakes_in_edges = {
-    {"a missing one", [](TetMesh& m, Random& r) {
+    {"a missing one",
+     [](TetMesh& m, Random& r) {
        const std::size_t edge = any(m.edges.size(), r);
        remove_if(m.edges, m.edge_markers, [&](std::size_t i) { return i == edge; });
      }},
@@ -400,9 +412,7 @@ const std::vector<Mistake> mistakes_in_edges = {
        m.edges.push_back({m.edges[i][1], m.edges[i][0]}), m.edge_markers.push_back(m.edge_markers[i]);
      }},
     {"one inside",
-     [](TetMesh& m, Random& r) {
-       m.edges.push_back(inner_edge(m, r)), m.edge_markers.push_back(segment_marker);
-     }},
+     [](TetMesh& m, Random& r) { m.edges.push_back(inner_edge(m, r)), m.edge_markers.push_back(segment_marker); }},
     {"a wrong marker",
      [](TetMesh& m, Random&) { *std::ranges::find(m.edge_markers, segment_marker) = segment_marker + 1; }},
     {"all markers 0", [](TetMesh& m, Random&) { std::ranges::fill(m.edge_markers, 0); }},
@@ -438,14 +448,14 @@ INSTANTIATE_TEST_SUITE_P(Verify, WrongMesh,
                          testing::Values(std::pair{"Tetrahedra", &mistakes_in_tetrahedra},
                                          std::pair{"Vertices", &mistakes_in_vertices},
                                          std::pair{"Regions", &mistakes_in_regions},
-                                         std::pair{"Faces", &mistakes_in_faces}, std::pair{"Edges", &mistakes_in_edges}),
+                                         std::pair{"Faces", &mistakes_in_faces},
+                                         std::pair{"Edges", &mistakes_in_edges}),
                          [](const auto& list) { return list.param.first; });
 
 TEST(WrongMesh, IsFoundIfItIsThatOfAnotherInput) {
   const InputPlc input = two_rooms();
-  for (const Furniture& missing :
-       {Furniture{.wall = false}, Furniture{.slit = false}, Furniture{.hole = false}, Furniture{.segment = false},
-        Furniture{.vertex = false}}) {
+  for (const Furniture& missing : {Furniture{.wall = false}, Furniture{.slit = false}, Furniture{.hole = false},
+                                   Furniture{.segment = false}, Furniture{.vertex = false}}) {
     const InputPlc other = two_rooms(missing);
     EXPECT_FALSE(verify::verify(input, meshed(other)).ok());
   }

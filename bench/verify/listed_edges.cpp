@@ -89,9 +89,8 @@ Check check_edge_markers(const plc::InputPlc& input, const Topology& topology, c
   std::unordered_multimap<std::uint64_t, int> markers;  // by edge
   for (std::size_t s = 0; s < segments.size(); ++s)
     if (marker_of(input, s) != 0)
-      visit_links(chains.of(s), [&](std::uint32_t a, std::uint32_t b) {
-        markers.emplace(edge_key(a, b), marker_of(input, s));
-      });
+      visit_links(chains.of(s),
+                  [&](std::uint32_t a, std::uint32_t b) { markers.emplace(edge_key(a, b), marker_of(input, s)); });
   for (std::size_t i = 0; i < mesh.edges.size(); ++i) {
     const auto [first, last] = markers.equal_range(edge_key(mesh.edges[i][0], mesh.edges[i][1]));
     if (first == last) continue;

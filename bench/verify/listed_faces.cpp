@@ -53,9 +53,8 @@ Check check_listed_facets(const Topology& topology, const FacetMatches& matches,
   for (const MatchedFace& matched : matches.faces) {
     if (topology.listed[matched.face] || topology.on_boundary(matched.face)) continue;
     ++check.checked;
-    fail(check, [&] {
-      return described(mesh, vertices_of_face(topology, matched.face)) + " is on a facet, but not listed";
-    });
+    fail(check,
+         [&] { return described(mesh, vertices_of_face(topology, matched.face)) + " is on a facet, but not listed"; });
   }
   return check;
 }

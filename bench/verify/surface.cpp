@@ -140,7 +140,7 @@ struct PolygonCells {
   std::vector<Edge> segments;  ///< edges that the polygons draw within the facet
 };
 
-/// The edges of polygons, each once, split where other polygons have a site on them.
+/// The edges of polygons, split where other polygons have a site on them.
 std::set<Edge> find_lines(const Surface& surface, const std::vector<PolygonCell>& polygons) {
   std::vector<std::uint32_t> sites;
   for (const PolygonCell& polygon : polygons)
@@ -151,21 +151,31 @@ std::set<Edge> find_lines(const Surface& surface, const std::vector<PolygonCell>
     for (const Edge& e : polygon) {
       std::uint32_t from = e[0];
       for (const std::uint32_t to : select_within(surface, e, sites))
-        lines.insert(ascending(Edge{std::exchange(from, to), to}));
-      lines.insert(ascending(Edge{from, e[1]}));
+        lines.insert({std::exchange(from, to), to});
+      lines.insert({from, e[1]});
     }
   return lines;
 }
 
+/// Is a cell within an outline: on the side of its edges where its area is? Edges on which it runs there and back do
+/// not count.
+bool is_within(const std::set<Edge>& outline, bool is_clockwise, const PolygonCell& cell) {
+  return std::ranges::any_of(cell, [&](const Edge& e) {
+    const Edge back = {e[1], e[0]};
+    return outline.contains(is_clockwise ? back : e) && !outline.contains(is_clockwise ? e : back);
+  });
+}
+
 /// The cells into which the polygons of a facet divide their plane, without those that hold a hole's point. An edge
-/// counts once, however often the polygons run along it.
-PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, const Surface& surface) {
+/// counts once, however often the polygons run along it. In a surface, a polygon is an outline, which may run around
+/// holes by bridges.
+PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, plc::InputPlc::Inside inside, const Surface& surface) {
   const std::span<const std::uint32_t> site_of_input = surface.sites.of_input;
   const std::span<const Point3> position = surface.sites.position;
   PolygonCells result;
   std::vector<PolygonCell> polygons;
   for (const auto& polygon : facet.polygons) polygons.push_back(edges_of(polygon, site_of_input));
-  if (polygons.size() == 1 && facet.holes.empty() && !meets_a_site_twice(polygons[0])) {
+  if (is_one_loop(facet) && !meets_a_site_twice(polygons[0])) {
     result.cells.push_back(polygons[0]);
     return result;
   }
@@ -174,7 +184,9 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, const Surface& s
     const Point3 n = normal_of(polygon, position);
     if (squared_length(n) > squared_length(normal)) normal = n;
   }
-  const std::set<Edge> undirected = find_lines(surface, polygons);
+  const std::set<Edge> directed = find_lines(surface, polygons);
+  std::set<Edge> undirected;
+  for (const Edge& e : directed) undirected.insert(ascending(e));
   const Drawing drawing = draw(normal, position);
   const auto [loops, areas, cells] = trace_drawing(normal, undirected, position);
   std::vector<bool> dropped(loops.size(), false);
@@ -183,12 +195,15 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, const Surface& s
         smallest_around(drawing, loops, areas, drawing.at(hole), [](std::size_t) { return false; });
     if (around < loops.size()) dropped[around] = true;
   }
+  const bool is_outline = inside == plc::InputPlc::Inside::even_odd && is_one_loop(facet);
+  const bool is_clockwise = is_outline && dot(area_vector(polygons[0], position), normal) < 0;
   std::set<Edge> kept;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (areas[i] <= 0 || dropped[i]) continue;
+    if (areas[i] <= 0 || dropped[i] || (is_outline && !is_within(directed, is_clockwise, cells[i]))) continue;
     result.cells.push_back(cells[i]);
     kept.insert(cells[i].begin(), cells[i].end());
   }
+  if (is_outline) return result;
   for (const auto& [a, b] : undirected)
     if (kept.count({a, b}) > 0 && kept.count({b, a}) > 0) result.segments.push_back({a, b});
   return result;
@@ -231,7 +246,7 @@ Pieces find_pieces(const plc::InputPlc& input, Surface& surface) {
   Pieces pieces;
   add_triangles(input, surface.sites, pieces);
   for (const plc::PolygonFacet& facet : input.polygon_facets) {
-    PolygonCells cells = find_polygon_cells(facet, surface);
+    PolygonCells cells = find_polygon_cells(facet, input.inside, surface);
     for (PolygonCell& cell : cells.cells)
       add_piece(std::move(cell), facet.marker, facet.number, surface.sites.position, pieces);
     surface.segments.insert(surface.segments.end(), cells.segments.begin(), cells.segments.end());

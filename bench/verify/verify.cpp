@@ -9,6 +9,7 @@
 
 #include "bench/verify/check_delaunay.h"
 #include "bench/verify/check_domain.h"
+#include "bench/verify/coordinates.h"
 #include "bench/verify/crossings.h"
 #include "bench/verify/distinct_vertices.h"
 #include "bench/verify/edit_surface.h"
@@ -16,7 +17,6 @@
 #include "bench/verify/findings.h"
 #include "bench/verify/listed_edges.h"
 #include "bench/verify/listed_faces.h"
-#include "bench/verify/coordinates.h"
 #include "engine/base/parallel.h"
 #include "engine/base/shared_progress.h"
 #include "engine/plc/gather_parts.h"
@@ -243,8 +243,7 @@ Check check_boundary(const Topology& topology, const FacetMatches& matches) {
 /// The engine rounds to 2^-33 of the next power of two above the box; and the coordinates in the file are rounded to
 /// doubles.
 double largest_rounding(const plc::InputPlc& input, const Tolerances& tolerances) {
-  return std::ldexp(tolerances.box, -32) +
-         std::numeric_limits<double>::epsilon() * largest_coordinate(input.vertices);
+  return std::ldexp(tolerances.box, -32) + std::numeric_limits<double>::epsilon() * largest_coordinate(input.vertices);
 }
 
 bool wants_delaunay(const VerifyOptions& options, const mesh::TetMesh& mesh) {

@@ -87,7 +87,8 @@ class FacetTriangulator {
         triangles_(triangles),
         segments_(segments),
         plane_{plc.vertices, {}, 2},
-        world_box_(bounding_box(plc.world)) {
+        world_box_(bounding_box(plc.world)),
+        inside_(input.inside) {
     const std::uint32_t given = segments.size();
     segments_at_.resize(plc.vertices.size());
     for (std::uint32_t s = 0; s < given; ++s)
@@ -102,7 +103,7 @@ class FacetTriangulator {
     if (vertices_.empty()) fail("a facet has no vertices", {}, "remove it");
     // No area, as in `drop_triangles_without_area`; or dangling segments and vertices, written as a facet.
     if (!take_plane()) return;
-    const bool plain = facet.polygons.size() == 1 && facet.holes.empty();
+    const bool plain = is_one_loop(facet);
     if (plain && vertices_.size() == 3 && edges_.size() == 3)
       return add_triangle(edges_[0][0], edges_[1][0], edges_[2][0]);
     if (plain && vertices_.size() == 4 && edges_.size() == 4 && split_quadrilateral()) return;
@@ -176,6 +177,8 @@ class FacetTriangulator {
 
   void triangulate() {
     planar::Carving carving;
+    const bool is_outline = inside_ == InputPlc::Inside::even_odd && is_one_loop(*facet_);
+    if (is_outline) carving.outside = planar::Carving::Outside::nesting;
     std::vector<Point3> seeds;
     for (const Point3& hole : facet_->holes) {
       if (!contains(world_box_, box_of(hole)))
@@ -210,7 +213,7 @@ class FacetTriangulator {
       const auto& [a, b, c] = t.triangles[i];
       add_triangle(a, b, c);
       for (std::uint32_t k = 0; k < 3; ++k)
-        if (t.constrained[i][k] && t.neighbors[i][k] != none && t.neighbors[i][k] > i)
+        if (!is_outline && t.constrained[i][k] && t.neighbors[i][k] != none && t.neighbors[i][k] > i)
           segments_.add(t.triangles[i][(k + 1) % 3], t.triangles[i][(k + 2) % 3], 0);
     }
     plane_.seeds = {};
@@ -236,6 +239,7 @@ class FacetTriangulator {
   ProjectedPlane plane_;
   std::vector<std::vector<std::uint32_t>> segments_at_;  // by vertex: the given segments whose smaller end it is
   Box world_box_;                                        // of all vertices, in the units of the input
+  InputPlc::Inside inside_;
   const PolygonFacet* facet_ = nullptr;
   std::vector<VertexId> vertices_;  // of the current facet, sorted
   std::vector<planar::Edge> edges_;
@@ -273,8 +277,8 @@ bool has_usual_extent(std::span<const Point3> points) {
 void check_extent(const InputPlc& input) {
   if (has_usual_extent(input.vertices)) return;
   std::ostringstream words;
-  words << "the bounding box has an extent of " << largest_extent(input.vertices) << "; the limits are "
-        << least_extent << " and " << most_extent;
+  words << "the bounding box has an extent of " << largest_extent(input.vertices) << "; the limits are " << least_extent
+        << " and " << most_extent;
   throw InputError(words.str(), {.file = input.name}, "use another unit of length");
 }
 

@@ -132,6 +132,7 @@ class WarpedFacets {
     for (const auto& [a, b, c] : given_.triangles) triangles_.push_back(key_of(a, b, c));
     std::sort(triangles_.begin(), triangles_.end());
     InputPlc by_projection;
+    by_projection.inside = given_.inside;
     for (const PolygonFacet& facet : given_.polygon_facets) {
       if (!is_warped(facet)) {
         input_.polygon_facets.push_back(facet);
@@ -150,8 +151,6 @@ class WarpedFacets {
   }
 
  private:
-  static bool is_one_loop(const PolygonFacet& facet) { return facet.polygons.size() == 1 && facet.holes.empty(); }
-
   bool is_warped(const PolygonFacet& facet) const {
     if (deviation_of(facet) <= tolerance_) return false;
     return !is_one_loop(facet) || !meets_a_vertex_twice(corners_of(facet.polygons[0]));
