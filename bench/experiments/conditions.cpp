@@ -91,7 +91,7 @@ ResultTable models_table(std::span<const ConditionsRow> rows) {
   return table;
 }
 
-std::string finding(const RowView& row) {
+std::string finding_of_conditions(const RowView& row) {
   const std::uint64_t models = row.count("models");
   return "Lattice " + row.text("lattice") + ": of " + with_separators(models) + " models, " +
          with_separators(row.count("theirs")) + " fulfill the condition of Radovitzky and Ortiz (" +
@@ -161,7 +161,7 @@ ExperimentResult conditions_result(std::span<const ConditionsRow> rows) {
   const ResultTable models = models_table(rows);
   ExperimentResult result{
       .how = once(), .definitions = conditions_definitions(), .tables = {models, cases_table(rows)}};
-  for (const RowView& row : rows_with(models)) result.findings.push_back(finding(row));
+  for (const RowView& row : rows_with(models)) result.findings.push_back(finding_of_conditions(row));
   for (const ConditionsRow& row : rows) add_contradictions(row, result);
   return result;
 }

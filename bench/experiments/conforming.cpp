@@ -133,7 +133,7 @@ ResultTable comparison_table(std::span<const ConformingRow> rows) {
   return table;
 }
 
-std::string finding(const RowView& row) {
+std::string finding_of_conforming(const RowView& row) {
   return "Split as " + row.text("protection") + ": CCDT needs fewer Steiner vertices in " +
          share_words(row.count("fewer"), row.count("needed")) +
          " cases where a conforming one needs some, and more in " + with_separators(row.count("more")) + "; together " +
@@ -147,7 +147,7 @@ ExperimentResult conforming_result(std::span<const ConformingRow> rows) {
   const ResultTable comparison = comparison_table(rows);
   ExperimentResult result{
       .how = once(), .definitions = conforming_definitions(), .tables = {comparison, cases_table(rows)}};
-  for (const RowView& row : rows_with(comparison)) result.findings.push_back(finding(row));
+  for (const RowView& row : rows_with(comparison)) result.findings.push_back(finding_of_conforming(row));
   for (const ConformingRow& row : rows)
     if (!row.ok()) add_problem(result, row.measured.asked.name + ": " + failure(row.measured), row.edge_length > 0);
   return result;

@@ -16,11 +16,11 @@ struct LocatorsModel {
   double edge_length;  ///< for about 20,000 vertices
   SurfaceKind kind;
 };
-const std::vector<LocatorsModel> models = {{"piston", 2.3, SurfaceKind::uniform},
-                                           {"bracket", 1.8, SurfaceKind::uniform},
-                                           {"stepping-pole", 1.8, SurfaceKind::uniform},
-                                           {"graded-cube", 0.0625, SurfaceKind::graded},
-                                           {"rough-sphere", 0.06, SurfaceKind::rough}};
+const std::vector<LocatorsModel> locators_models = {{"piston", 2.3, SurfaceKind::uniform},
+                                                    {"bracket", 1.8, SurfaceKind::uniform},
+                                                    {"stepping-pole", 1.8, SurfaceKind::uniform},
+                                                    {"graded-cube", 0.0625, SurfaceKind::graded},
+                                                    {"rough-sphere", 0.06, SurfaceKind::rough}};
 
 const std::vector<std::string> locators_definitions = {
     "Seconds of the front alone, including the construction of the locator.",
@@ -113,7 +113,7 @@ std::vector<LocatorsRow> plan(const ExperimentOptions& options) {
     add_group(options, surface, kind, false, rows);
     if (kind == SurfaceKind::rough || kind == SurfaceKind::input) add_group(options, surface, kind, true, rows);
   };
-  for (const LocatorsModel& model : models)
+  for (const LocatorsModel& model : locators_models)
     if (is_chosen(options, model.name))
       add(write_solid(options, "locators", model.name, model.edge_length), model.kind);
   for (const SurfaceFile& input : input_files(options)) add(input, SurfaceKind::input);

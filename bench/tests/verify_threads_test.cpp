@@ -130,7 +130,7 @@ TEST(VerifyThreads, ReportProgressFromTheCallerAlone) {
     EXPECT_LE(done, total);
     if (stages.empty() || stages.back() != stage) stages.emplace_back(stage);
   };
-  with_threads(4, [&] { verify::verify(m.input, m.mesh, {}, progress); });
+  with_threads(4, [&] { verify::verify(m.input, m.mesh, tetrahedra_alone, progress); });
   EXPECT_EQ(std::ranges::count(stages, "verify facets"), 1);
   struct Canceled {};
   const auto cancel = [](std::string_view, std::uint64_t, std::uint64_t) { throw Canceled(); };

@@ -23,7 +23,9 @@ constexpr int outer_marker = 1, wall_marker = 7, slit_marker = 8, hole_marker = 
 
 /// Adds a quadrilateral.
 void add_facet(const std::array<Point3, 4>& corners, int marker, InputPlc& plc) {
-  PolygonFacet facet{.marker = marker, .number = static_cast<std::uint32_t>(plc.polygon_facets.size())};
+  PolygonFacet facet;
+  facet.marker = marker;
+  facet.number = static_cast<std::uint32_t>(plc.polygon_facets.size());
   facet.polygons.emplace_back();
   for (const Point3& p : corners) {
     const auto found = std::ranges::find(plc.vertices, p);

@@ -140,7 +140,7 @@ struct PolygonCells {
   std::vector<Edge> segments;  ///< edges that the polygons draw within the facet
 };
 
-/// The edges of polygons, split where other polygons have a site on them.
+/// The edges of polygons, each once, split where other polygons have a site on them.
 std::set<Edge> find_lines(const Surface& surface, const std::vector<PolygonCell>& polygons) {
   std::vector<std::uint32_t> sites;
   for (const PolygonCell& polygon : polygons)
@@ -151,24 +151,36 @@ std::set<Edge> find_lines(const Surface& surface, const std::vector<PolygonCell>
     for (const Edge& e : polygon) {
       std::uint32_t from = e[0];
       for (const std::uint32_t to : select_within(surface, e, sites))
-        lines.insert({std::exchange(from, to), to});
-      lines.insert({from, e[1]});
+        lines.insert(ascending(Edge{std::exchange(from, to), to}));
+      lines.insert(ascending(Edge{from, e[1]}));
     }
   return lines;
 }
 
-/// Is a cell within an outline: on the side of its edges where its area is? Edges on which it runs there and back do
-/// not count.
-bool is_within(const std::set<Edge>& outline, bool is_clockwise, const PolygonCell& cell) {
-  return std::ranges::any_of(cell, [&](const Edge& e) {
-    const Edge back = {e[1], e[0]};
-    return outline.contains(is_clockwise ? back : e) && !outline.contains(is_clockwise ? e : back);
-  });
+/// How many edges of an outline are between each of its cells and the outside, at least.
+std::vector<std::size_t> find_depths(std::span<const PolygonCell> cells, const std::vector<double>& areas) {
+  std::map<Edge, std::size_t> to_the_left;
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (areas[i] > 0)
+      for (const Edge& e : cells[i]) to_the_left[e] = i;
+  std::vector<std::size_t> depth(cells.size(), 0), queue;
+  const auto enter = [&](std::size_t cell, std::size_t its_depth) {
+    if (depth[cell] > 0) return;
+    depth[cell] = its_depth;
+    queue.push_back(cell);
+  };
+  for (const auto& [edge, cell] : to_the_left)
+    if (!to_the_left.contains({edge[1], edge[0]})) enter(cell, 1);
+  for (std::size_t next = 0; next < queue.size(); ++next)
+    for (const Edge& e : cells[queue[next]])
+      if (const auto across = to_the_left.find({e[1], e[0]}); across != to_the_left.end())
+        enter(across->second, depth[queue[next]] + 1);
+  return depth;
 }
 
 /// The cells into which the polygons of a facet divide their plane, without those that hold a hole's point. An edge
 /// counts once, however often the polygons run along it. In a surface, a polygon is an outline, which may run around
-/// holes by bridges.
+/// holes by bridges: every second cell from the outside is a hole.
 PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, plc::InputPlc::Inside inside, const Surface& surface) {
   const std::span<const std::uint32_t> site_of_input = surface.sites.of_input;
   const std::span<const Point3> position = surface.sites.position;
@@ -184,9 +196,7 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, plc::InputPlc::I
     const Point3 n = normal_of(polygon, position);
     if (squared_length(n) > squared_length(normal)) normal = n;
   }
-  const std::set<Edge> directed = find_lines(surface, polygons);
-  std::set<Edge> undirected;
-  for (const Edge& e : directed) undirected.insert(ascending(e));
+  const std::set<Edge> undirected = find_lines(surface, polygons);
   const Drawing drawing = draw(normal, position);
   const auto [loops, areas, cells] = trace_drawing(normal, undirected, position);
   std::vector<bool> dropped(loops.size(), false);
@@ -196,10 +206,11 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, plc::InputPlc::I
     if (around < loops.size()) dropped[around] = true;
   }
   const bool is_outline = inside == plc::InputPlc::Inside::even_odd && is_one_loop(facet);
-  const bool is_clockwise = is_outline && dot(area_vector(polygons[0], position), normal) < 0;
+  std::vector<std::size_t> depths(cells.size(), 1);
+  if (is_outline) depths = find_depths(cells, areas);
   std::set<Edge> kept;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (areas[i] <= 0 || dropped[i] || (is_outline && !is_within(directed, is_clockwise, cells[i]))) continue;
+    if (areas[i] <= 0 || dropped[i] || depths[i] % 2 == 0) continue;
     result.cells.push_back(cells[i]);
     kept.insert(cells[i].begin(), cells[i].end());
   }

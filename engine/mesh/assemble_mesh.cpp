@@ -258,6 +258,7 @@ void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, Te
   mesh.edges.reserve(chains.size());
   mesh.edge_markers.reserve(chains.size());
   for (std::size_t s = 0; s < chains.size(); ++s) {
+    if (!plc.segments[s].inside) continue;
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});
       mesh.edge_markers.push_back(plc.segments[s].marker);

@@ -65,6 +65,11 @@ bool is_grazeable(std::span<const Point3> vertices, const PlcParts& parts, const
   return false;
 }
 
+bool is_in_domain(const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
+  return std::ranges::any_of(parts.edges.sides_around(e),
+                             [&](std::uint32_t side) { return map.regions[map.of_side[side]].inside; });
+}
+
 // Does the domain touch itself along the edge?
 bool is_touching(const PlcParts& parts, const RegionMap& map, std::uint32_t e) {
   if (parts.edges.sides_around(e).size() <= 2) return false;
@@ -90,13 +95,15 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
           const int marker = s == none ? 0 : parts.segments.markers[s];
           std::uint32_t face = no_face;
           for (const std::uint32_t t : parts.edges.around(e)) face = std::min(face, parts.triangles.faces[t]);
-          segments[next++] = {parts.edges.ends[e], marker, is_grazeable(vertices, parts, map, e),
-                              is_touching(parts, map, e), face};
+          segments[next++] = {parts.edges.ends[e],        marker, is_grazeable(vertices, parts, map, e),
+                              is_touching(parts, map, e), face,   is_in_domain(parts, map, e)};
         }
       });
   for (std::size_t i = 0; i < map.of_loose.size(); ++i) {
     const std::uint32_t s = parts.match.loose[i];
-    segments.push_back({parts.segments.ends[s], parts.segments.markers[s], map.regions[map.of_loose[i]].inside});
+    const bool inside = map.regions[map.of_loose[i]].inside;
+    segments.push_back(
+        {.ends = parts.segments.ends[s], .marker = parts.segments.markers[s], .grazeable = inside, .inside = inside});
   }
   return segments;
 }

@@ -178,7 +178,7 @@ class FacetTriangulator {
   void triangulate() {
     planar::Carving carving;
     const bool is_outline = inside_ == InputPlc::Inside::even_odd && is_one_loop(*facet_);
-    if (is_outline) carving.outside = planar::Carving::Outside::nesting;
+    carving.nested = is_outline;
     std::vector<Point3> seeds;
     for (const Point3& hole : facet_->holes) {
       if (!contains(world_box_, box_of(hole)))

@@ -11,8 +11,9 @@ namespace ccdt::plc {
 
 /// A facet given by polygons in one plane, as in TetGen's .poly and in OBJ, OFF and PLY faces with more than three
 /// corners. A polygon of two vertices is a segment within the facet, of one vertex a vertex within it. Loops other than
-/// the outer one that bound a hole in the facet are given by `holes`: a point in each hole. In surface formats, a polygon
-/// is an outline: if it runs around a hole by a bridge, there and back on the same edge, nothing is in the hole.
+/// the outer one that bound a hole in the facet are given by `holes`: a point in each hole. In surface formats, a
+/// polygon is an outline: if it runs around a hole by a bridge, there and back on the same edge, nothing is in the
+/// hole.
 struct PolygonFacet {
   std::vector<std::vector<std::uint32_t>> polygons;
   std::vector<Point3> holes;

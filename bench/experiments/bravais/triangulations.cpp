@@ -5,6 +5,11 @@
 #include <numeric>
 
 namespace ccdt::bravais {
+
+std::int64_t six_volumes_of(const Cell& cell) {
+  return std::abs(small_plcs::six_volumes(cell[0], cell[1], cell[2], cell[3]));
+}
+
 namespace {
 
 using Corners = std::array<std::uint32_t, 4>;  ///< numbers of vertices, in increasing order
@@ -12,10 +17,6 @@ using FaceCorners = std::array<std::uint32_t, 3>;
 
 Cell cell_of(const Polytope& polytope, const Corners& c) {
   return {polytope[c[0]], polytope[c[1]], polytope[c[2]], polytope[c[3]]};
-}
-
-std::int64_t six_volumes_of(const Cell& cell) {
-  return std::abs(small_plcs::six_volumes(cell[0], cell[1], cell[2], cell[3]));
 }
 
 /// The tetrahedra of the polytope's vertices that are not flat.

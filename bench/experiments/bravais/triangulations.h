@@ -9,6 +9,9 @@
 namespace ccdt::bravais {
 
 using Cell = std::array<Point, 4>;  ///< a tetrahedron; its orientation does not matter
+
+std::int64_t six_volumes_of(const Cell& cell);
+
 using Triangulation = std::vector<Cell>;
 
 /// All ways to divide a polytope into tetrahedra with its vertices. Each tetrahedron has a volume, and they meet in

@@ -10,10 +10,6 @@
 namespace ccdt::bravais {
 namespace {
 
-std::int64_t six_volumes_of(const Cell& cell) {
-  return std::abs(small_plcs::six_volumes(cell[0], cell[1], cell[2], cell[3]));
-}
-
 /// The square of r as numerator and denominator.
 std::pair<std::int64_t, std::int64_t> terms_of_squared_r(const Gram& gram, const Cell& cell) {
   std::int64_t edges = 0;
