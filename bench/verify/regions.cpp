@@ -254,7 +254,7 @@ std::vector<std::uint32_t> RayShooter::pieces_near(const Point3& point) const {
   return near;
 }
 
-bool RayShooter::is_on_piece_across_axis(const Point3& point) const {
+bool RayShooter::is_on_piece_across_axis(const Point3& point, const std::function<bool(std::uint32_t)>& counts) const {
   const double tolerance = surface_.tolerances.place;
   const auto shares = [&](std::uint32_t site, std::size_t axis) {
     return as_array(surface_.at(site))[axis] == as_array(point)[axis];
@@ -280,7 +280,7 @@ bool RayShooter::is_on_piece_across_axis(const Point3& point) const {
     return encloses(surface_.area_vector[p], edges, surface_.sites.position, point);
   };
   bool found = false;
-  tree_.for_each_meeting(box_of(point), [&](std::uint32_t p) { found = found || is_on(p); });
+  tree_.for_each_meeting(box_of(point), [&](std::uint32_t p) { found = found || (counts(p) && is_on(p)); });
   return found;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "bench/verify/surface.h"
@@ -36,7 +37,8 @@ class RayShooter {
   std::vector<std::uint32_t> pieces_near(const Point3& point) const;
   /// Is a point exactly on a piece that is perpendicular to an axis, and if near its border, on an edge along an axis?
   /// Then it stays on the piece when coordinates are rounded.
-  bool is_on_piece_across_axis(const Point3& point) const;
+  /// \param counts  pieces of which this is not true are left out
+  bool is_on_piece_across_axis(const Point3& point, const std::function<bool(std::uint32_t)>& counts) const;
 
  private:
   const Surface& surface_;

@@ -145,14 +145,14 @@ class RaysIfNeeded {
 /// rounded coordinates may find it outside.
 bool is_in_domain(const Surface& surface, const Regions& regions, RaysIfNeeded& rays_if_needed, const Point3& p) {
   const RayShooter& rays = rays_if_needed.get();
+  if (rays.is_on_piece_across_axis(p, [&](std::uint32_t piece) { return regions.touches_inside(piece); })) return true;
   const auto is_inside = [&](std::uint32_t region) { return regions.inside[region] == Inside::yes; };
-  const std::vector<std::uint32_t> around = regions_at(surface, regions, rays, p);
-  if (std::ranges::none_of(around, is_inside)) return false;
   const auto is_within = [&](std::uint32_t piece) {
     return is_inside(regions.of_side[2 * piece]) && is_inside(regions.of_side[2 * piece + 1]);
   };
-  if (std::ranges::all_of(around, is_inside) && std::ranges::all_of(rays.pieces_near(p), is_within)) return true;
-  return rays.is_on_piece_across_axis(p);
+  const std::vector<std::uint32_t> around = regions_at(surface, regions, rays, p);
+  return !around.empty() && std::ranges::all_of(around, is_inside) &&
+         std::ranges::all_of(rays.pieces_near(p), is_within);
 }
 
 constexpr const char *vertices_check = "input vertices", *segments_check = "input segments";
