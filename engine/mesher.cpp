@@ -43,7 +43,9 @@ Tetrahedralization tetrahedralize(const InputPlc& input, bool flattens, Protecte
 }
 
 /// The vertices, regions and counts of the mesh, in the units of the input.
-MeshResult finish(const plc::Plc& plc, Tetrahedralization t, Run& run) {
+MeshResult finish(const ProtectedDomain& domain, Tetrahedralization t, Run& run) {
+  const plc::Plc& plc = domain.plc;
+  mesh::drop_foreign_edges(plc, domain.chains, t.mesh);
   t.mesh.vertices = run.measured(Stage::finish, [&] { return mesh::to_world(plc, t.points, t.mesh.tetrahedra); });
   if (const auto attribute = mesh::common_attribute(plc.regions))
     t.mesh.regions.assign(t.mesh.tetrahedra.size(), *attribute);
@@ -62,7 +64,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   ProtectedDomain domain;
   Tetrahedralization t = tetrahedralize(surface.changed ? *surface.changed : input, false, domain, run);
   steps::improve_mesh(domain, t, run);
-  return finish(domain.plc, std::move(t), run);
+  return finish(domain, std::move(t), run);
 }
 
 }  // namespace

@@ -26,6 +26,12 @@ void add_links(std::span<const std::uint32_t> chain, EdgeKeys& keys) {
   visit_links(chain, [&](std::uint32_t a, std::uint32_t b) { keys.insert(edge_key(a, b)); });
 }
 
+EdgeKeys edges_of_faces(const mesh::TetMesh& mesh) {
+  EdgeKeys keys;
+  for (const auto& [a, b, c] : mesh.faces) keys.insert({edge_key(a, b), edge_key(b, c), edge_key(c, a)});
+  return keys;
+}
+
 std::size_t count_edges(const mesh::TetMesh& mesh) {
   std::vector<std::uint64_t> keys;
   keys.reserve(6 * mesh.tetrahedra.size());
@@ -65,9 +71,12 @@ Check check_listed_edges(const plc::InputPlc& input, const Topology& topology, c
     else if (!on_surface.contains(key))
       others.push_back(edge);
   }
-  if (!others.empty() && listed.size() < count_edges(mesh))
+  if (!others.empty() && listed.size() < count_edges(mesh)) {
+    const EdgeKeys on_facets = edges_of_faces(mesh);
     for (const Edge& edge : others)
-      fail(check, [&] { return described(mesh, edge) + " is listed, but is on no segment or edge of the input"; });
+      if (!on_facets.contains(edge_key(edge[0], edge[1])))
+        fail(check, [&] { return described(mesh, edge) + " is listed, but is on no facet or segment of the input"; });
+  }
   const auto miss = [&](std::uint32_t a, std::uint32_t b) {
     ++check.checked;
     if (!listed.insert(edge_key(a, b)).second) return;

@@ -13,8 +13,8 @@ struct SurfaceEdges {
   Chains edges, segments;      ///< along the edges and the segments of the surface
 };
 
-/// A mesh that lists edges lists those along the segments and the features of its surface: each once, and no others. It
-/// may also list all its edges.
+/// A mesh that lists edges lists those along the segments and the features of its surface, each once, and none that is
+/// on no facet. It may also list all its edges.
 ///
 /// \param required  is it wrong if the mesh lists no edges at all? Only if segments of the input have markers
 Check check_listed_edges(const plc::InputPlc& input, const Topology& topology, const Surface& surface,

@@ -210,7 +210,8 @@ void FacetDivider::add_segments(std::uint32_t f, plc::Plc& result) const {
     const VertexId apex = *std::ranges::find_if(triangles[j], [&](VertexId v) { return v != a && v != b; });
     const auto [p, q, r] = corners_of(triangles[i]);
     const int turn = orient3d(p, q, r, plc_.vertices[apex]);
-    result.segments.push_back({{a, b}, 0, is_grazeable_fold(plc_, plc_.facets[f], turn)});
+    result.segments.push_back(
+        {.ends = {a, b}, .grazeable = is_grazeable_fold(plc_, plc_.facets[f], turn), .inside = false});
   }
 }
 

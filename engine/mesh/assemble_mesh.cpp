@@ -258,12 +258,23 @@ void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, Te
   mesh.edges.reserve(chains.size());
   mesh.edge_markers.reserve(chains.size());
   for (std::size_t s = 0; s < chains.size(); ++s) {
-    if (!plc.segments[s].inside) continue;
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i) {
       mesh.edges.push_back({chains[s][i].vertex, chains[s][i + 1].vertex});
       mesh.edge_markers.push_back(plc.segments[s].marker);
     }
   }
+}
+
+void drop_foreign_edges(const plc::Plc& plc, const protection::SegmentChains& chains, TetMesh& mesh) {
+  std::size_t next = 0, kept = 0;
+  for (std::size_t s = 0; s < chains.size(); ++s)
+    for (std::size_t i = 0; i + 1 < chains[s].size(); ++i, ++next) {
+      if (!plc.segments[s].inside) continue;
+      mesh.edges[kept] = mesh.edges[next];
+      mesh.edge_markers[kept++] = mesh.edge_markers[next];
+    }
+  mesh.edges.resize(kept);
+  mesh.edge_markers.resize(kept);
 }
 
 void check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const Point3> points,

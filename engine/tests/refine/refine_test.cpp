@@ -141,7 +141,7 @@ TEST(Refine, ACubeGetsEvenTriangles) {
 
 TEST(Refine, TheUnitOfLengthMayBeTiny) {
   InputPlc tiny = unit_cube();
-  for (Point3& p : tiny.vertices) p = 0x1p-560 * p;
+  for (Point3& p : tiny.vertices) p = 0x1p-330 * p;
   MeshOptions options = refining(0);
   options.lattice = Lattice::none;
   EXPECT_EQ(mesh_plc(tiny, options).mesh.tetrahedra, mesh_plc(unit_cube(), options).mesh.tetrahedra);
