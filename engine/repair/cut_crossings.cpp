@@ -25,12 +25,6 @@ using plc::TrianglePair;
 using plc::TriangleSet;
 
 constexpr std::string_view stage = "cut crossings";
-constexpr std::size_t most_rounds_of_cuts = 16;  // general position needs one round, welds usually up to eight
-
-/// Nobody meant to have more triangles than this: cuts along accidental intersections make ever more.
-std::size_t most_triangles(std::size_t given, std::size_t pairs) {
-  return 16 * given + 32 * pairs + 1000;
-}
 
 /// Leaves distinct triangles that have an area and no vertices on them. Returns the pairs that may cross.
 std::vector<TrianglePair> clean(std::span<const Point3> vertices, TriangleSet& triangles, Fins fins) {
@@ -128,23 +122,37 @@ class WeldSearch {
   bool is_near_everywhere_;
 };
 
-}  // namespace
+/// What becomes of things that almost touch.
+enum class Closeness : std::uint8_t {
+  welded,  ///< they are joined. This bends what is near them, so there can be new crossings, without end
+  kept     ///< only exact intersections are cut
+};
 
-CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, const Progress& progress) {
+/// General position needs one round, welds usually up to eight.
+constexpr std::size_t usual_rounds = 8, most_rounds = 2 * usual_rounds;
+
+/// Where there is ever more to do, cuts make accidental intersections, and these make further cuts.
+bool is_without_end(std::size_t left, std::size_t left_at_first) {
+  return left > 8 * left_at_first + 100;
+}
+
+CutCounts cut_in_rounds(plc::UncheckedPlc& soup, const CutOptions& options, Closeness closeness,
+                        const Progress& progress) {
   CutCounts counts;
   WeldSearch search(options);
-  const std::size_t given = soup.triangles.size();
+  std::size_t left_at_first = 0;
   for (;; ++counts.rounds) {
-    report(progress, stage, counts.rounds, most_rounds_of_cuts);
+    report(progress, stage, std::min(counts.rounds, usual_rounds), usual_rounds);
     const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be intended
     const std::vector<TrianglePair> close = clean(soup.plc.vertices, soup.triangles, fins);
     const Cuts found = find_cuts(soup.plc.vertices, soup.triangles, close);
     counts.left = found.pairs;
     if (counts.rounds == 0) counts.pairs = found.pairs;
     if (counts.pairs == 0 && !options.weld_everywhere) break;
-    if (counts.rounds == most_rounds_of_cuts || soup.triangles.size() > most_triangles(given, counts.pairs)) break;
-    const Welds welds = search.find(found.cuts, soup);
-    if (found.pairs == 0 && welds.empty()) break;
+    const Welds welds = closeness == Closeness::welded ? search.find(found.cuts, soup) : Welds();
+    counts.left += welds.size();
+    if (counts.rounds == 0) left_at_first = counts.left;
+    if (counts.left == 0 || counts.rounds == most_rounds || is_without_end(counts.left, left_at_first)) break;
     plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
     // Where triangles almost touch, their intersection is accidental. So they are welded first.
     if (!welds.equal.empty()) {
@@ -154,11 +162,25 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
     const std::vector<plc::VertexTriple> before = soup.triangles.corners;
     if (!welds.empty()) cut_along(number_vertices(welds, search.reach.vertices, soup), soup);
     if (soup.triangles.corners != before) continue;
+    counts.left = found.pairs;
     if (found.pairs == 0) break;  // things near each other are welded as far as possible
     cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
   }
-  report(progress, stage, most_rounds_of_cuts, most_rounds_of_cuts);
+  report(progress, stage, usual_rounds, usual_rounds);
   return counts;
+}
+
+}  // namespace
+
+CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, const Progress& progress) {
+  const plc::UncheckedPlc given = soup;
+  CutCounts counts = cut_in_rounds(soup, options, Closeness::welded, progress);
+  if (counts.left == 0) return counts;
+  plc::UncheckedPlc cut = given;
+  const CutCounts exact = cut_in_rounds(cut, options, Closeness::kept, progress);
+  if (exact.left >= counts.left) return counts;
+  soup = std::move(cut);
+  return exact;
 }
 
 }  // namespace ccdt::repair

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -31,7 +32,8 @@ struct Welds {
   std::vector<std::pair<std::uint64_t, Point3>> on_edges;  ///< edges (`edge_key`), and points that should be on them
   std::vector<WeldedEdge> in_triangles;
 
-  bool empty() const { return equal.empty() && on_edges.empty() && in_triangles.empty(); }
+  std::size_t size() const { return equal.size() + on_edges.size() + in_triangles.size(); }
+  bool empty() const { return size() == 0; }
 };
 
 /// Finds triangles that would touch or cover each other on an infinitely fine grid, but do not on this one.
