@@ -74,11 +74,32 @@ Json to_json(const Diagnosis& diagnosis) {
           {"faults", faults}};
 }
 
+Json to_json(const repair::Certificate& c) {
+  return {{"displacement", c.displacement},
+          {"area_before", c.area_before},
+          {"area_after", c.area_after},
+          {"area_of_lids", c.area_of_lids},
+          {"area_removed", c.area_removed},
+          {"largest_lid", c.largest_lid},
+          {"farthest_lid", c.farthest_lid},
+          {"volume_before", c.volume_before ? Json(*c.volume_before) : Json()},
+          {"components_before", c.components_before},
+          {"components_after", c.components_after},
+          {"genus", c.genus ? Json(*c.genus) : Json()}};
+}
+
 Json to_json(const CheckReport::Copy& copy) {
   Json steps = Json::array();
-  for (const RepairStep& step : copy.steps)
-    steps.push_back({{"name", step.name}, {"what", step.what}, {"count", step.count}});
-  Json json = {{"output", copy.output}, {"steps", steps}};
+  for (const RepairStep& step : copy.steps) {
+    Json places = Json::array();
+    for (const Place& place : step.places) places.push_back(to_json(place));
+    steps.push_back({{"name", step.name}, {"what", step.what}, {"count", step.count}, {"places", places}});
+  }
+  Json json = {{"output", copy.output.empty() ? Json() : Json(copy.output)},
+               {"steps", steps},
+               {"certificate", to_json(copy.certificate)},
+               {"refused", copy.refused},
+               {"out_of_time", copy.is_out_of_time}};
   json.update(to_json(copy.diagnosis));
   return json;
 }
@@ -105,11 +126,23 @@ std::string to_terminal(const Diagnosis& diagnosis, std::size_t most_places) {
   return text;
 }
 
-std::string to_terminal(const std::vector<RepairStep>& steps) {
+std::string to_terminal(const CheckReport::Copy& copy) {
   std::string text;
   constexpr std::size_t width = 9;
-  for (const RepairStep& step : steps)
+  for (const RepairStep& step : copy.steps)
     text += "done  " + padded(with_separators(step.count), width) + "  " + std::string(step.what) + "\n";
+  return text + "result " + padded("", width) + " " + in_few_words(copy.certificate) + "\n";
+}
+
+std::string in_few_words(const repair::Certificate& certificate) {
+  const auto rounded = [](double x) { return bench::rounded(x, 4); };
+  std::string text = certificate.displacement == 0 ? "nothing moved"
+                                                    : "nothing moved farther than " + rounded(certificate.displacement);
+  text += ", area " + rounded(certificate.area_before) + " became " + rounded(certificate.area_after);
+  if (certificate.area_of_lids > 0)
+    text += ", of which lids " + rounded(certificate.area_of_lids) + " (largest " + rounded(certificate.largest_lid) +
+            ", up to " + rounded(certificate.farthest_lid) + " from its rim)";
+  if (certificate.volume_before) text += ", the volume was " + rounded(*certificate.volume_before);
   return text;
 }
 

@@ -16,8 +16,11 @@ struct CheckReport {
   repair::Diagnosis diagnosis = {};
   /// A repaired copy.
   struct Copy {
-    std::string output;
+    std::string output;  ///< empty: nothing was written, because a limit forbade it
     std::vector<repair::RepairStep> steps;
+    repair::Certificate certificate;
+    std::vector<std::string> refused;
+    bool is_out_of_time = false;
     repair::Diagnosis diagnosis;  ///< of the file as it was written
   };
   std::optional<Copy> copy = {};
@@ -29,8 +32,11 @@ struct CheckReport {
 /// \param most_places  of each kind of fault
 std::string to_terminal(const repair::Diagnosis& diagnosis, std::size_t most_places);
 
-/// A line for each step.
-std::string to_terminal(const std::vector<repair::RepairStep>& steps);
+/// A line for each step, and what they did to the surface.
+std::string to_terminal(const CheckReport::Copy& copy);
+
+/// How a repaired surface differs from the given one, in a line.
+std::string in_few_words(const repair::Certificate& certificate);
 
 /// A verdict in a few words: what a valid input encloses, or how many kinds of errors there are.
 std::string in_few_words(const repair::Diagnosis& diagnosis);

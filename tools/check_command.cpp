@@ -40,33 +40,58 @@ void print_diagnosis(const std::string& file, const repair::Diagnosis& diagnosis
   print(": " + reports::in_few_words(diagnosis) + "\n");
 }
 
-/// \return  is the input, or its repaired copy, valid?
-bool run(const CheckCommand& command) {
+/// Repairs an input, writes the copy unless a limit forbids it, and checks what was written.
+reports::CheckReport::Copy repaired_copy(const CheckCommand& command, const plc::InputPlc& input,
+                                         const Progress& progress) {
+  repair::Repaired repaired = repair::repair_input(input, command.options, progress);
+  reports::CheckReport::Copy copy{{},
+                                  std::move(repaired.steps),
+                                  repaired.certificate,
+                                  std::move(repaired.refused),
+                                  repaired.is_out_of_time,
+                                  {}};
+  if (copy.refused.empty()) {
+    copy.output = command.output;
+    io::write_plc(repaired.input, command.output);
+    // The format may round coordinates, so the file is checked, not what was written into it.
+    repaired.input = io::read_plc(command.output);
+  }
+  copy.diagnosis = repair::find_faults(repaired.input, command.options.flatness, progress);
+  return copy;
+}
+
+ExitCode code_of(const reports::CheckReport& report) {
+  if (!report.copy) return report.diagnosis.is_valid() ? done : bad_input;
+  if (report.copy->is_out_of_time) return limit_reached;
+  return report.copy->refused.empty() && report.copy->diagnosis.is_valid() ? done : bad_input;
+}
+
+void print_copy(const CheckCommand& command, const reports::CheckReport::Copy& copy) {
+  print(reports::to_terminal(copy));
+  for (const std::string& refusal : copy.refused) print_error_line("not repaired: " + refusal);
+  if (copy.is_out_of_time)
+    print_error_line("the time is over, and the copy is what was reached; --time gives the repair more seconds");
+  if (!copy.output.empty()) print_diagnosis(command.output, copy.diagnosis, command.details);
+}
+
+/// \return  0 if the input, or its repaired copy, is valid
+ExitCode run(const CheckCommand& command) {
   keep_freed_memory();
   check_files(command);
   reports::CheckReport report{.input = command.input};
   with_progress(command.input, [&](const Progress& progress) {
     const plc::InputPlc input = io::read_plc(command.input);
     report.diagnosis = repair::find_faults(input, command.options.flatness, progress);
-    if (command.repair) {
-      repair::Repaired repaired = repair::repair_input(input, command.options, progress);
-      io::write_plc(repaired.input, command.output);
-      // The format may round coordinates, so the file is checked, not what was written into it.
-      report.copy = {command.output, std::move(repaired.steps),
-                     repair::find_faults(io::read_plc(command.output), command.options.flatness, progress)};
-    }
+    if (command.repair) report.copy = repaired_copy(command, input, progress);
   });
   print_diagnosis(command.input, report.diagnosis, command.details);
-  if (report.copy) {
-    print(reports::to_terminal(report.copy->steps));
-    print_diagnosis(command.output, report.copy->diagnosis, command.details);
-  }
+  if (report.copy) print_copy(command, *report.copy);
   if (!command.report.empty()) {
     io::OutputFile file(command.report);
     file << reports::to_json(report);
     file.commit();
   }
-  return report.copy ? report.copy->diagnosis.is_valid() : report.diagnosis.is_valid();
+  return code_of(report);
 }
 
 }  // namespace
@@ -86,6 +111,17 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
                    "default: a ten-thousandth of the largest extent")
       ->check(positive_number())
       ->needs(repair);
+  verb->add_option("--limit", command->options.limit,
+                   "with --repair: how far lids may reach from the rims of their holes, and how far everything else may "
+                   "move, in units of the input; default: a thousandth of the largest extent for lids, a millionth for "
+                   "everything else, or --gap where gaps were closed")
+      ->check(positive_number())
+      ->needs(repair);
+  verb->add_option("--time", command->options.seconds,
+                   "with --repair: seconds after which it stops and says how far it came; default: 10, and 1 for each "
+                   "1,000 facets")
+      ->check(positive_number())
+      ->needs(repair);
   verb->add_option(
           "--flatness", command->options.flatness,
           "tolerance for flat facets, as a fraction of the bounding box; the default is larger for coordinates rounded "
@@ -98,13 +134,16 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   verb->footer(
       "Errors keep an input from being meshed; notes do not, but the input may not be what was meant.\n"
       "Facets are numbered from 0, as in the file.\n"
-      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not.\n\n"
+      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair; 4 its time\n"
+      "is over.\n\n"
       "Example: list what is wrong with a part\n"
       "  ccdt check part.stl\n"
       "Example: repair it, close gaps of up to 0.01 units, and mesh the copy\n"
-      "  ccdt check part.stl --repair --gap 0.01 -o repaired.off && ccdt mesh repaired.off -o part.vtu\n");
+      "  ccdt check part.stl --repair --gap 0.01 -o repaired.off && ccdt mesh repaired.off -o part.vtu\n"
+      "Example: fill holes with lids that reach up to 5 units from their rims\n"
+      "  ccdt check part.stl --repair --limit 5 -o repaired.off\n");
   verb->callback([command, &exit_code] {
-    exit_code = with_threads(command->threads, [&] { return run(*command); }) ? done : bad_input;
+    exit_code = with_threads(command->threads, [&] { return run(*command); });
   });
 }
 

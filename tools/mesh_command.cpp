@@ -23,7 +23,10 @@
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/plc/edge_length_bounds.h"
+#include "engine/repair/find_faults.h"
+#include "engine/repair/repair_input.h"
 #include "engine/surface/prepare_surface.h"
+#include "reports/check_text.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
@@ -37,7 +40,8 @@ namespace {
 
 struct MeshCommand {
   std::string input, output, report;
-  std::string surface_output;  ///< file for the remeshed surface
+  std::string surface_output;  ///< file for the remeshed or repaired surface
+  bool repair = false;         ///< before meshing
   std::string mesher = "ccdt";
   MeshOptions options;
   baselines::Strategies strategies = baselines::Strategies::usual;
@@ -48,8 +52,8 @@ void check_surface_options(const MeshCommand& command) {
   const bool remesh = command.options.surface == SurfaceRule::remesh;
   if (remesh && command.options.edge_length == 0)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
-  if (!remesh && !command.surface_output.empty())
-    throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh");
+  if (!remesh && !command.repair && !command.surface_output.empty())
+    throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh or --repair");
   if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
     throw CLI::ValidationError("--surface refine",
                                "only ccdt refines a surface; use --surface remesh for other meshers");
@@ -123,6 +127,25 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   return record;
 }
 
+/// The input without its faults. What was done is noted.
+///
+/// \throw InputError  a limit forbids the repair
+/// \throw LimitError  there is not enough time
+InputPlc repaired(const InputPlc& input, double flatness, const Progress& progress, bench::RunRecord& record) {
+  if (repair::find_faults(input, flatness, progress).is_valid()) return input;
+  repair::Repaired result = repair::repair_input(input, {.flatness = flatness}, progress);
+  if (result.is_out_of_time)
+    throw LimitError("the input cannot be repaired in time", {.file = input.name},
+                     "repair it with `ccdt check --repair --time`, which gives it more");
+  if (!result.refused.empty())
+    throw InputError(result.refused.front(), {.file = input.name},
+                     "repair it with `ccdt check --repair --limit`, and look at the copy");
+  const repair::Certificate& certificate = result.certificate;
+  record.repaired = {certificate.displacement, certificate.area_of_lids, certificate.area_removed};
+  record.notes.push_back("the input was repaired: " + reports::in_few_words(certificate));
+  return std::move(result.input);
+}
+
 /// The surface that the mesher gets. What had to be changed is noted: a length that is too long or too short is
 /// probably in the wrong unit.
 ///
@@ -147,9 +170,9 @@ InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& optio
   if (options.surface == SurfaceRule::remesh) {
     record.notes.push_back("the surface was remeshed from " + bench::with_separators(surface.facets) + " to " +
                            bench::with_separators(input.facet_count()) + " facets");
-    if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
     options.surface = SurfaceRule::keep;
   }
+  if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
   const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
   if (others_fill && options.edge_length > 0) plc::check_edges_of_surface(input, options.edge_length);
   return input;
@@ -220,6 +243,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   record.read_seconds = read_seconds;
   if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
+  if (command.repair) input = repaired(input, options.flatness, progress, record);
   input = prepared(command, std::move(input), options, progress, record);
   if (!options.background.name.empty()) {
     const Stopwatch watch(record.read_seconds);
@@ -306,13 +330,14 @@ void add_files(CLI::App& verb, MeshCommand& command) {
       ->required();
   verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .node")->required();
   verb.add_option("--surface-output", command.surface_output,
-                  std::string("write the remeshed surface to this file: ") + surface_endings);
+                  std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
   verb.add_option("--report", command.report,
                   "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
 }
 
 void add_options(CLI::App& verb, MeshCommand& command) {
   add_files(verb, command);
+  verb.add_flag("--repair", command.repair, "repair an input that is not valid; `ccdt check` has options for that");
   verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
@@ -356,7 +381,7 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "surface-output", "report", "mesher"}) std::erase(rules.names, other);
+  for (const char* other : {"output", "surface-output", "report", "repair", "mesher"}) std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);
   };

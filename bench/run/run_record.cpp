@@ -83,6 +83,11 @@ inline constexpr auto fields<VerifiedMesh::FailedCheck> =
                field("failed", &VerifiedMesh::FailedCheck::failed));
 
 template <>
+inline constexpr auto fields<RepairedInput> = std::tuple(field("displacement", &RepairedInput::displacement),
+                                                         field("area_of_lids", &RepairedInput::area_of_lids),
+                                                         field("area_removed", &RepairedInput::area_removed));
+
+template <>
 inline constexpr auto fields<VerifiedMesh> = std::tuple(field("right", &VerifiedMesh::right),
                                                         field("checks", &VerifiedMesh::checks),
                                                         field("seconds", &VerifiedMesh::seconds));
@@ -102,7 +107,8 @@ constexpr auto fields_after_seconds =
                field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status),
                field_if_any("kind", &RunRecord::kind), field_if_any("reason", &RunRecord::reason),
                field_if_any("case", &RunRecord::case_id), field_if_any("number", &RunRecord::number),
-               field_if_any("verification", &RunRecord::verification), field_if_any("notes", &RunRecord::notes),
+               field_if_any("verification", &RunRecord::verification),
+               field_if_any("repaired", &RunRecord::repaired), field_if_any("notes", &RunRecord::notes),
                field_if_any("samples", &RunRecord::samples));
 
 Json options_json(const RunRecord& record) {

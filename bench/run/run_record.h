@@ -27,6 +27,11 @@ struct VerifiedMesh {
   double seconds = 0;
 };
 
+/// How a repaired input differs from the file, in units of the input; see `repair::Certificate`.
+struct RepairedInput {
+  double displacement = 0, area_of_lids = 0, area_removed = 0;
+};
+
 /// One run of one mesher on one input, written as JSON of schema `ccdt.run/1`.
 struct RunRecord {
   using Option = baselines::OptionValue;
@@ -58,6 +63,7 @@ struct RunRecord {
   std::string case_id;                         ///< the case of this run; empty outside a sweep
   std::optional<int> number;                   ///< of the run among those of its case, from 0
   std::optional<VerifiedMesh> verification;
+  std::optional<RepairedInput> repaired;               ///< only if the input was repaired before it was meshed
   std::vector<std::string> notes;                      ///< what a reader must know
   std::map<std::string, std::vector<double>> samples;  ///< raw seconds by name, if one record stands for several runs
 

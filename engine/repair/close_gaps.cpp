@@ -71,19 +71,19 @@ std::vector<Candidate> find_candidates(std::span<const Point3> points, const Ope
 }
 
 /// Vertices move to the first one of their set, so sets are joined only if their first ones are near each other.
-std::size_t merge_vertices(plc::UncheckedPlc& soup, double width) {
+std::vector<VertexId> merge_vertices(plc::UncheckedPlc& soup, double width) {
   const std::vector<Point3>& points = soup.plc.vertices;
   const OpenRims rims = find_rims(points, plc::make_edge_table(soup.triangles.corners), width);
   std::vector<double> reach(points.size(), 0);
   for (std::size_t i = 0; i < rims.vertices.size(); ++i) reach[rims.vertices[i]] = rims.reach[i];
   UnionFind sets(points.size());
-  std::size_t merged = 0;
+  std::vector<VertexId> merged;
   for (const Candidate& candidate : find_candidates(points, rims)) {
     const std::uint32_t a = sets.find(rims.vertices[candidate.first]), b = sets.find(rims.vertices[candidate.second]);
     const double most = std::min(reach[a], reach[b]);
     if (a == b || squared_length(points[b] - points[a]) > most * most) continue;
     reach[sets.join(a, b)] = most;
-    ++merged;
+    merged.emplace_back(b);
   }
   const auto follow = [&](VertexId& v) { v = VertexId(sets.find(v)); };
   for (plc::VertexTriple& corners : soup.triangles.corners) std::ranges::for_each(corners, follow);
@@ -151,7 +151,8 @@ std::size_t split_open_edges(plc::UncheckedPlc& soup, double width) {
 GapCounts close_gaps(plc::UncheckedPlc& soup, double width) {
   GapCounts counts;
   const auto drop_collapsed = [&] { plc::drop_triangles_without_area(soup.plc.vertices, soup.triangles); };
-  counts.merged_vertices = merge_vertices(soup, width);
+  counts.moved = merge_vertices(soup, width);
+  counts.merged_vertices = counts.moved.size();
   if (counts.merged_vertices > 0) drop_collapsed();
   // Each triangle has three edges, and pieces of them may have further vertices beside them.
   constexpr int most_rounds = 8;

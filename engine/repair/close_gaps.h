@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "engine/plc/build_plc.h"
 
@@ -10,6 +11,7 @@ namespace ccdt::repair {
 struct GapCounts {
   std::size_t merged_vertices = 0;  ///< moved to another one nearby
   std::size_t split_edges = 0;      ///< at nearby vertices
+  std::vector<VertexId> moved;      ///< the merged ones, where they were
 };
 
 /// Closes narrow gaps between open edges. Vertices of open edges are merged with others nearby, the nearest first. Then

@@ -132,15 +132,15 @@ enum class Closeness : std::uint8_t {
 constexpr std::size_t usual_rounds = 8, most_rounds = 2 * usual_rounds;
 
 /// Where there is ever more to do, cuts make accidental intersections, and these make further cuts.
-bool is_without_end(std::size_t left, std::size_t left_at_first) {
-  return left > 8 * left_at_first + 100;
+bool is_without_end(std::size_t left, std::size_t left_before) {
+  return left > 2 * left_before + 1000;
 }
 
 CutCounts cut_in_rounds(plc::UncheckedPlc& soup, const CutOptions& options, Closeness closeness,
                         const Progress& progress) {
   CutCounts counts;
   WeldSearch search(options);
-  std::size_t left_at_first = 0;
+  std::size_t left_before = 0;  // at first; without welds, the least number so far
   for (;; ++counts.rounds) {
     report(progress, stage, std::min(counts.rounds, usual_rounds), usual_rounds);
     const Fins fins = counts.rounds == 0 ? Fins::keep : Fins::drop;  // those of the input may be intended
@@ -151,8 +151,8 @@ CutCounts cut_in_rounds(plc::UncheckedPlc& soup, const CutOptions& options, Clos
     if (counts.pairs == 0 && !options.weld_everywhere) break;
     const Welds welds = closeness == Closeness::welded ? search.find(found.cuts, soup) : Welds();
     counts.left += welds.size();
-    if (counts.rounds == 0) left_at_first = counts.left;
-    if (counts.left == 0 || counts.rounds == most_rounds || is_without_end(counts.left, left_at_first)) break;
+    if (counts.rounds == 0 || (closeness == Closeness::kept && counts.left < left_before)) left_before = counts.left;
+    if (counts.left == 0 || counts.rounds == most_rounds || is_without_end(counts.left, left_before)) break;
     plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
     // Where triangles almost touch, their intersection is accidental. So they are welded first.
     if (!welds.equal.empty()) {
@@ -173,14 +173,16 @@ CutCounts cut_in_rounds(plc::UncheckedPlc& soup, const CutOptions& options, Clos
 }  // namespace
 
 CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, const Progress& progress) {
-  const plc::UncheckedPlc given = soup;
-  CutCounts counts = cut_in_rounds(soup, options, Closeness::welded, progress);
-  if (counts.left == 0) return counts;
-  plc::UncheckedPlc cut = given;
-  const CutCounts exact = cut_in_rounds(cut, options, Closeness::kept, progress);
-  if (exact.left >= counts.left) return counts;
-  soup = std::move(cut);
-  return exact;
+  CutCounts counts;
+  for (const Closeness closeness : {Closeness::welded, Closeness::kept}) {
+    plc::UncheckedPlc cut = soup;
+    counts = cut_in_rounds(cut, options, closeness, progress);
+    if (counts.left > 0) continue;
+    soup = std::move(cut);
+    return counts;
+  }
+  counts.left = counts.pairs;
+  return counts;
 }
 
 }  // namespace ccdt::repair

@@ -11,7 +11,7 @@ namespace ccdt::repair {
 struct CutCounts {
   std::size_t pairs = 0;   ///< of triangles that shared more than corners and edges at first
   std::size_t rounds = 0;  ///< of cuts and welds; one if nothing almost touches
-  std::size_t left = 0;    ///< pairs that still meet after the last round
+  std::size_t left = 0;    ///< pairs that still meet: all or none
 };
 
 struct CutOptions {
@@ -28,7 +28,8 @@ struct CutOptions {
 ///
 /// Facets that should touch, such as those of two rotated solids, one on top of the other, touch only up to the
 /// rounding of their vertices. So where triangles cross, whatever is within the tolerance is welded before it is cut.
-/// This merges vertices and renumbers them.
+/// This merges vertices and renumbers them. Welds bend what is near them, which can cross again without end; then
+/// everything is cut again without welds. If that does not end either, the soup stays as it is.
 ///
 /// A soup without crossings, vertices on triangles, equal triangles and triangles without area stays as it is. Segments
 /// that are edges are divided with them; other segments may still cross triangles.

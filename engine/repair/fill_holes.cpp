@@ -54,22 +54,38 @@ bool fits(const std::vector<plc::VertexTriple>& filling, const plc::VertexTriple
 
 }  // namespace
 
-HoleCounts fill_holes(plc::UncheckedPlc& soup, Rims which) {
+std::size_t FilledHoles::triangles() const {
+  std::size_t sum = 0;
+  for (const Lid& lid : lids) sum += lid.triangles.size();
+  return sum;
+}
+
+FilledHoles fill_holes(plc::UncheckedPlc& soup, Rims which, double reach) {
   const EdgeTable edges = plc::make_edge_table(soup.triangles.corners);
-  HoleCounts counts;
+  FilledHoles holes;
   for (const std::vector<VertexId>& loop : find_rims(edges, which)) {
     const std::vector<plc::VertexTriple> filling = triangulate(soup.plc.vertices, loop);
     if (filling.empty()) continue;
+    Lid lid;
+    std::vector<Point3> rim;
+    for (const plc::VertexTriple& t : filling) lid.triangles.push_back(plc::points_of(soup.plc.vertices, t));
+    for (const VertexId v : loop) rim.push_back(soup.plc.vertices[v]);
+    lid.reach = reach_of(lid.triangles, rim);
+    if (lid.reach > reach) {
+      ++holes.left_open;
+      holes.farthest = std::max(holes.farthest, lid.reach);
+      continue;
+    }
     const std::uint32_t neighbor = triangle_at(edges, loop[0], loop[1]);
     const int marker = soup.triangles.markers[neighbor];
     const std::uint32_t number = soup.triangles.numbers[neighbor];
     const bool is_right = fits(filling, soup.triangles.corners[neighbor], loop[0], loop[1]);
     for (const auto& [a, b, c] : filling)
       soup.triangles.add(is_right ? plc::VertexTriple{a, b, c} : plc::VertexTriple{a, c, b}, marker, number);
-    ++counts.filled;
-    counts.triangles += filling.size();
+    holes.lids.push_back(std::move(lid));
+    holes.rims.push_back(loop);
   }
-  return counts;
+  return holes;
 }
 
 }  // namespace ccdt::repair

@@ -1,20 +1,28 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "engine/plc/build_plc.h"
+#include "engine/repair/certificate.h"
 #include "engine/repair/open_edges.h"
 
 namespace ccdt::repair {
 
 /// What was done to holes.
-struct HoleCounts {
-  std::size_t filled = 0;
-  std::size_t triangles = 0;  ///< that fill them
+struct FilledHoles {
+  std::vector<Lid> lids;
+  std::vector<std::vector<VertexId>> rims;  ///< of the lids
+  std::size_t left_open = 0;                ///< holes whose lids would reach too far
+  double farthest = 0;                      ///< how far those lids would reach
+
+  std::size_t triangles() const;  ///< of the lids
 };
 
 /// Fills each loop of open edges as a polygon: a flat one by a triangulation in its plane, any other so that it bends
 /// least (`plc::triangulate_warped_facets`).
-HoleCounts fill_holes(plc::UncheckedPlc& soup, Rims which = Rims::of_holes);
+///
+/// \param reach  the largest distance of a lid from its rim, in grid units. Other holes stay open
+FilledHoles fill_holes(plc::UncheckedPlc& soup, Rims which, double reach);
 
 }  // namespace ccdt::repair

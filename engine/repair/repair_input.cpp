@@ -1,10 +1,12 @@
 #include "engine/repair/repair_input.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <utility>
 
 #include "engine/base/box.h"
+#include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
 #include "engine/plc/gather_parts.h"
@@ -15,6 +17,7 @@
 #include "engine/repair/gather_soup.h"
 #include "engine/repair/orient_shells.h"
 #include "engine/repair/remove_flaps.h"
+#include "engine/repair/remove_sheets.h"
 #include "engine/repair/remove_walls.h"
 
 namespace ccdt::repair {
@@ -29,70 +32,28 @@ bool is_surface(const InputPlc& input) {
   return input.inside == InputPlc::Inside::even_odd;
 }
 
-double widest_gap(const RepairOptions& options, const plc::Plc& plc) {
-  if (options.gap > 0) return options.gap / plc.grid.unit;
-  return usual_gap * largest_extent(plc.vertices);
+/// Is thrown where a step ends after the given time.
+struct OutOfTime {};
+
+/// Ends the repair at the first step that begins too late.
+Progress until(double seconds, const Progress& progress) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  return [end, progress](std::string_view stage, std::uint64_t done, std::uint64_t total) {
+    if (std::chrono::steady_clock::now() > end && done < total) throw OutOfTime();
+    report(progress, stage, done, total);
+  };
 }
 
-/// Notes what was done.
-class StepList {
- public:
-  explicit StepList(std::vector<RepairStep>& steps) : steps_(steps) {}
-
-  void add(const RepairStep& step) {
-    if (step.count == 0) return;
-    const auto known = std::ranges::find(steps_, step.name, &RepairStep::name);
-    if (known == steps_.end())
-      steps_.push_back(step);
-    else
-      known->count += step.count;
-  }
-
- private:
-  std::vector<RepairStep>& steps_;
+/// What is allowed, in grid units.
+struct Limits {
+  double gap, reach, displacement;
 };
 
-void join_open_edges(double gap, plc::UncheckedPlc& soup, StepList& steps) {
-  const GapCounts gaps = close_gaps(soup, gap);
-  steps.add({"merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices});
-  steps.add({"split_edges", "open edges split at nearby vertices", gaps.split_edges});
-  steps.add(
-      {"collapsed_facets", "duplicate facets removed afterward", drop_equal_triangles(soup.triangles, Fins::keep)});
-}
-
-/// \return  was there anything to do?
-bool close_surface(plc::UncheckedPlc& soup, StepList& steps) {
-  const std::size_t flaps = remove_flaps(soup);
-  steps.add({"flaps", "facets removed because they bounded nothing", flaps});
-  orient_shells(soup);
-  HoleCounts holes = fill_holes(soup);
-  if (flaps == 0 && holes.filled == 0) holes = fill_holes(soup, Rims::all);
-  steps.add({"filled_holes", "holes filled", holes.filled});
-  steps.add({"filling_triangles", "triangles that fill them", holes.triangles});
-  return flaps > 0 || holes.filled > 0;
-}
-
-/// Sheets that are folded back to back vanish.
-void check_something_is_left(const InputPlc& input, const plc::UncheckedPlc& soup) {
-  if (soup.triangles.size() > 0) return;
-  throw InputError("no facet encloses anything, so a repair leaves nothing", {.file = input.name},
-                   "give a surface that encloses something");
-}
-
-CutCounts cut_and_unite(const InputPlc& input, const plc::PlcOptions& options, bool weld_everywhere,
-                        const Progress& progress, plc::UncheckedPlc& soup, StepList& steps) {
-  const OrientedSurface given{soup.plc.vertices, soup.triangles.corners};
-  const double tolerance = plc::tolerance_of(soup.plc, options.flatness);
-  const CutCounts cuts = cut_crossings(soup, {tolerance, weld_everywhere}, progress);
-  steps.add({"crossings", "pairs of facets cut at their intersection", cuts.pairs});
-  check_something_is_left(input, soup);
-  if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input)) return cuts;
-  try {
-    steps.add({"walls", "facets removed from the inside of the union", remove_walls(soup, given, input, options)});
-  } catch (const InputError&) {
-    // As in `turn_outward`.
-  }
-  return cuts;
+Limits limits_of(const RepairOptions& options, const plc::Plc& plc) {
+  const double extent = largest_extent(plc.vertices), limit = options.limit / plc.grid.unit;
+  return {.gap = options.gap > 0 ? options.gap / plc.grid.unit : usual_gap * extent,
+          .reach = limit > 0 ? limit : usual_reach * extent,
+          .displacement = limit > 0 ? limit : usual_displacement * extent};
 }
 
 /// Turns triangles that face the opposite way from the given ones with the same corners.
@@ -107,45 +68,6 @@ std::size_t turn_like(const std::vector<plc::VertexTriple>& given, std::size_t v
     ++turned;
   }
   return turned;
-}
-
-/// Turns the facets of a surface without crossings so that their normals point out of the domain. Facets inside stay as
-/// they are.
-///
-/// \return  is the surface valid?
-bool turn_outward(const InputPlc& input, const plc::PlcOptions& options, plc::UncheckedPlc& soup) {
-  try {
-    const plc::Plc plc = plc::assemble_plc(input, soup, options);
-    turn_like(outward_triangles(plc), plc.vertices.size(), soup.triangles.corners);
-    return true;
-  } catch (const InputError&) {
-    return false;  // whoever checks the repaired input sees what is still wrong with it
-  }
-}
-
-/// Closes the surface, cuts it, and turns it outward. What fills a hole can cross other facets, and cuts can leave
-/// flaps.
-void repair_surface(Soup& soup, const plc::PlcOptions& options, const Progress& progress, StepList& steps) {
-  constexpr int most_rounds = 5;
-  plc::UncheckedPlc& parts = soup.parts;
-  const std::vector<plc::VertexTriple> as_given = parts.triangles.corners;
-  bool are_comparable = true;  // pieces of facets cannot be compared with these
-  std::size_t crossings = 0;
-  for (int round = 0; round < most_rounds; ++round) {
-    if (!close_surface(parts, steps) && round > 0) break;
-    const CutCounts cuts = cut_and_unite(soup.input, options, false, progress, parts, steps);
-    if (cuts.pairs > 0) are_comparable = false;
-    crossings = cuts.left;
-  }
-  if (crossings == 0 && !turn_outward(soup.input, options, parts)) {
-    // Facets may cover each other within the tolerance without a crossing.
-    are_comparable = false;
-    if (cut_and_unite(soup.input, options, true, progress, parts, steps).left == 0)
-      turn_outward(soup.input, options, parts);
-  }
-  if (!are_comparable) return;
-  std::vector<plc::VertexTriple> now = parts.triangles.corners;
-  steps.add({"turned_facets", "facets turned", turn_like(as_given, parts.plc.vertices.size(), now)});
 }
 
 InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
@@ -178,30 +100,200 @@ InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
   return input;
 }
 
+/// Repairs a surface or PLC step by step, and notes what it does.
+class Repair {
+ public:
+  Repair(const InputPlc& input, const RepairOptions& options, const Progress& progress)
+      : input_(input),
+        options_{options.flatness},
+        progress_(until(options.seconds > 0 ? options.seconds : usual_seconds(input.facet_count()), progress)),
+        soup_(gather_soup(input, options_)),
+        parts_(soup_.parts),
+        given_(soup_.parts),
+        limits_(limits_of(options, parts_.plc)) {}
+
+  Repaired run() {
+    note_gathered();
+    try {
+      report(progress_, repair_stage, 0, steps_of_repair);
+      if (is_surface(input_)) {
+        join_open_edges();
+        report(progress_, repair_stage, 1, steps_of_repair);
+        repair_surface();
+      } else {
+        cut_and_unite(false);
+      }
+    } catch (const OutOfTime&) {
+      result_.is_out_of_time = true;
+    }
+    result_.certificate = certify(given_, parts_, lids_);
+    note_limits();
+    result_.input = to_input(input_, parts_);
+    return std::move(result_);
+  }
+
+ private:
+  void add(std::string_view name, std::string_view what, std::uint64_t count, std::vector<Place> places = {}) {
+    if (count == 0) return;
+    const auto known = std::ranges::find(result_.steps, name, &RepairStep::name);
+    RepairStep& step = known == result_.steps.end() ? result_.steps.emplace_back(RepairStep{name, what}) : *known;
+    step.count += count;
+    for (Place& place : places)
+      if (step.places.size() < most_places) step.places.push_back(std::move(place));
+  }
+
+  Place place_of(std::span<const VertexId> vertices, std::vector<long long> facets = {}) const {
+    Place place{.facets = std::move(facets)};
+    for (const VertexId v : vertices) place.points.push_back(as_array(parts_.plc.world[v]));
+    return place;
+  }
+
+  std::vector<Place> places_of(const plc::TriangleSet& triangles) const {
+    std::vector<Place> places;
+    for (std::uint32_t t = 0; t < triangles.size() && t < most_places; ++t)
+      places.push_back(place_of(triangles.corners[t], {triangles.numbers[t]}));
+    return places;
+  }
+
+  void note_gathered() {
+    add("invalid_polygons", "facets removed because they are not polygons in one plane", soup_.invalid_polygons.size(),
+        soup_.invalid_polygons);
+    add("warped_facets", "polygons triangulated because they are not planar", soup_.input.warped.count);
+    std::vector<Place> without_area;
+    for (const std::uint32_t number : soup_.without_area) without_area.push_back({.facets = {number}});
+    add("without_area", "facets without area removed", soup_.without_area.size(), std::move(without_area));
+    add("equal_vertices", "vertices merged with one at the same place",
+        input_.vertices.size() - parts_.plc.vertices.size());
+    add("duplicates", "duplicate facets removed", drop_equal_triangles(parts_.triangles, Fins::keep));
+  }
+
+  void join_open_edges() {
+    const GapCounts gaps = close_gaps(parts_, limits_.gap);
+    std::vector<Place> merged;
+    for (const VertexId v : gaps.moved) merged.push_back(place_of({&v, 1}));
+    if (gaps.merged_vertices + gaps.split_edges > 0) limits_.displacement = std::max(limits_.displacement, limits_.gap);
+    add("merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices, std::move(merged));
+    add("split_edges", "open edges split at nearby vertices", gaps.split_edges);
+    add("collapsed_facets", "duplicate facets removed afterward", drop_equal_triangles(parts_.triangles, Fins::keep));
+  }
+
+  /// \return  was there anything to do?
+  bool close_surface() {
+    const std::size_t flaps = remove_flaps(parts_);
+    add("flaps", "facets removed because they bounded nothing", flaps);
+    orient_shells(parts_);
+    FilledHoles holes = fill_holes(parts_, Rims::of_holes, limits_.reach);
+    if (flaps == 0 && holes.lids.empty()) holes = fill_holes(parts_, Rims::all, limits_.reach);
+    const plc::TriangleSet sheets = remove_sheets(parts_);
+    left_open_ = sheets.size() == 0 ? holes.left_open : 0;
+    farthest_ = holes.farthest;
+    std::vector<Place> rims;
+    for (const std::vector<VertexId>& rim : holes.rims) rims.push_back(place_of(rim));
+    add("filled_holes", "holes filled", holes.lids.size(), std::move(rims));
+    add("filling_triangles", "triangles that fill them", holes.triangles());
+    add("sheets", "facets removed because they are on small open sheets", sheets.size(), places_of(sheets));
+    lids_.insert(lids_.end(), holes.lids.begin(), holes.lids.end());
+    return flaps > 0 || !holes.lids.empty() || sheets.size() > 0;
+  }
+
+  /// Sheets that are folded back to back vanish, and flat ones enclose nothing.
+  void check_something_is_enclosed() const {
+    if (parts_.triangles.size() > 0 && !(is_surface(input_) && are_flat_sheets(parts_, tolerance()))) return;
+    throw InputError("the facets enclose nothing, so there is nothing to repair", {.file = input_.name},
+                     "give a surface that encloses something");
+  }
+
+  double tolerance() const { return plc::tolerance_of(parts_.plc, options_.flatness); }
+
+  CutCounts cut_and_unite(bool weld_everywhere) {
+    const OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
+    const CutCounts cuts = cut_crossings(parts_, {tolerance(), weld_everywhere}, progress_);
+    add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
+    check_something_is_enclosed();
+    if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input_)) return cuts;
+    try {
+      add("walls", "facets removed from the inside of the union", remove_walls(parts_, surface, soup_.input, options_));
+    } catch (const InputError&) {
+      // As in `turn_outward`.
+    }
+    return cuts;
+  }
+
+  /// Turns the facets of a surface without crossings so that their normals point out of the domain. Facets inside stay
+  /// as they are.
+  ///
+  /// \return  is the surface valid?
+  bool turn_outward() {
+    try {
+      const plc::Plc plc = plc::assemble_plc(soup_.input, parts_, options_);
+      turn_like(outward_triangles(plc), plc.vertices.size(), parts_.triangles.corners);
+      return true;
+    } catch (const InputError&) {
+      return false;  // whoever checks the repaired input sees what is still wrong with it
+    }
+  }
+
+  /// Closes the surface, cuts it, and turns it outward. What fills a hole can cross other facets, and cuts can leave
+  /// flaps.
+  void repair_surface() {
+    constexpr int most_rounds = 5;
+    const std::vector<plc::VertexTriple> as_given = parts_.triangles.corners;
+    bool are_comparable = true;  // pieces of facets cannot be compared with these
+    std::size_t crossings = 0;
+    for (int round = 0; round < most_rounds; ++round) {
+      if (!close_surface() && round > 0) break;
+      const CutCounts cuts = cut_and_unite(false);
+      if (cuts.pairs > 0) are_comparable = false;
+      crossings = cuts.left;
+    }
+    if (crossings == 0 && !turn_outward()) {
+      // Facets may cover each other within the tolerance without a crossing.
+      are_comparable = false;
+      if (cut_and_unite(true).left == 0) turn_outward();
+    }
+    if (!are_comparable) return;
+    std::vector<plc::VertexTriple> now = parts_.triangles.corners;
+    add("turned_facets", "facets turned", turn_like(as_given, parts_.plc.vertices.size(), now));
+  }
+
+  void note_limits() {
+    const double unit = parts_.plc.grid.unit;
+    const auto allowed = [&](double needed, double limit) {
+      return digits(unit * limit) + " is allowed; --limit " + digits(needed) + " allows it";
+    };
+    if (left_open_ > 0)
+      result_.refused.push_back(
+          (left_open_ == 1 ? std::string("a hole stays open: its lid") : "holes stay open: the farthest lid") +
+          " would reach " + digits(unit * farthest_) + " from its rim, and " + allowed(unit * farthest_, limits_.reach));
+    if (result_.certificate.displacement > unit * limits_.displacement)
+      result_.refused.push_back("the surface would move by up to " + digits(result_.certificate.displacement) +
+                                ", and " + allowed(result_.certificate.displacement, limits_.displacement));
+  }
+
+  static constexpr std::size_t most_places = 1000;
+
+  const InputPlc& input_;
+  plc::PlcOptions options_;
+  Progress progress_;
+  Soup soup_;
+  plc::UncheckedPlc& parts_;  // of the soup
+  const plc::UncheckedPlc given_;
+  Limits limits_;
+  std::vector<Lid> lids_;
+  std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last
+  double farthest_ = 0;        // how far those would reach
+  Repaired result_;
+};
+
 }  // namespace
 
+double usual_seconds(std::size_t facets) {
+  constexpr double at_least = 10, per_facet = 1e-3;
+  return at_least + per_facet * static_cast<double>(facets);
+}
+
 Repaired repair_input(const InputPlc& input, const RepairOptions& options, const Progress& progress) {
-  report(progress, repair_stage, 0, steps_of_repair);
-  const plc::PlcOptions plc_options{options.flatness};
-  Repaired repaired;
-  StepList steps(repaired.steps);
-  Soup soup = gather_soup(input, plc_options);
-  plc::UncheckedPlc& parts = soup.parts;
-  steps.add(
-      {"invalid_polygons", "facets removed because they are not polygons in one plane", soup.invalid_polygons.size()});
-  steps.add({"warped_facets", "polygons triangulated because they are not planar", soup.input.warped.count});
-  steps.add({"without_area", "facets without area removed", soup.without_area.size()});
-  steps.add({"equal_vertices", "vertices merged with one at the same place",
-             input.vertices.size() - parts.plc.vertices.size()});
-  steps.add({"duplicates", "duplicate facets removed", drop_equal_triangles(parts.triangles, Fins::keep)});
-  report(progress, repair_stage, 1, steps_of_repair);
-  if (is_surface(input)) {
-    join_open_edges(widest_gap(options, parts.plc), parts, steps);
-    repair_surface(soup, plc_options, progress, steps);
-  } else {
-    cut_and_unite(soup.input, plc_options, false, progress, parts, steps);
-  }
-  repaired.input = to_input(input, parts);
+  Repaired repaired = Repair(input, options, progress).run();
   report(progress, repair_stage, steps_of_repair, steps_of_repair);
   return repaired;
 }

@@ -89,8 +89,72 @@ TEST(Repair, FillsHoles) {
   // A whole side and two triangles of the opposite one.
   input.triangles.erase(input.triangles.begin(), input.triangles.begin() + 50);
   input.triangles.erase(input.triangles.begin() + 20, input.triangles.begin() + 22);
-  EXPECT_EQ(count_of(repaired(input, 1), "filled_holes"), 2u);
-  EXPECT_EQ(count_of(repaired(rotated(arbitrary, input), 1), "filled_holes"), 2u);
+  EXPECT_EQ(count_of(repaired(input, 1, 1e-9, {.limit = 1}), "filled_holes"), 2u);
+  EXPECT_EQ(count_of(repaired(rotated(arbitrary, input), 1, 1e-9, {.limit = 1}), "filled_holes"), 2u);
+}
+
+TEST(Repair, LeavesAHoleOpenWhoseLidWouldReachTooFar) {
+  plc::InputPlc input = gridded_cube(5);
+  merge_equal_vertices(input);
+  input.triangles.erase(input.triangles.begin(), input.triangles.begin() + 50);  // a whole side
+  const repair::Repaired refused = repair::repair_input(input);
+  EXPECT_EQ(refused.refused.size(), 1u);
+  EXPECT_EQ(count_of(refused, "filled_holes"), 0u);
+  EXPECT_FALSE(repair::repair_input(input, {.limit = 0.49}).refused.empty());
+  const repair::Repaired filled = repaired(input, 1, 1e-9, {.limit = 0.56});
+  EXPECT_NEAR(filled.certificate.farthest_lid, 0.5, 0.056);
+  EXPECT_GE(filled.certificate.farthest_lid, 0.5);
+  EXPECT_NEAR(filled.certificate.largest_lid, 1, 1e-9);
+  EXPECT_NEAR(filled.certificate.area_of_lids, 1, 1e-9);
+  EXPECT_EQ(filled.certificate.displacement, 0);
+}
+
+TEST(Repair, BoundsHowFarTheSurfaceMoves) {
+  plc::InputPlc input = unit_cube();
+  separate_triangles(input);
+  std::mt19937_64 random(3);
+  shake(random, 1e-5, input);
+  const repair::Certificate certificate = repaired(input, 1, 1e-3).certificate;
+  EXPECT_GT(certificate.displacement, 1e-6);
+  EXPECT_LT(certificate.displacement, 4e-5);
+  EXPECT_EQ(certificate.components_before, 12u);
+  EXPECT_EQ(certificate.components_after, 1u);
+  EXPECT_EQ(certificate.genus, 0);
+}
+
+TEST(Repair, MeasuresTheUnionOfTwoCubes) {
+  plc::InputPlc input = unit_cube();
+  append(input, box({0.5, 0.25, 0.25}, {1.5, 0.75, 0.75}));
+  const repair::Certificate certificate = repaired(input, 1.125).certificate;
+  EXPECT_EQ(certificate.displacement, 0);
+  EXPECT_NEAR(certificate.area_before, 6 + 2.5, 1e-9);
+  EXPECT_NEAR(certificate.area_after, 6 + 1, 1e-9);
+  EXPECT_NEAR(certificate.area_removed, 1.5, 1e-9);
+  EXPECT_NEAR(certificate.volume_before.value(), 1.25, 1e-9);
+}
+
+TEST(Repair, RemovesASmallSheetBesideASolid) {
+  plc::InputPlc input = unit_cube();
+  const auto first = static_cast<std::uint32_t>(input.vertices.size());
+  for (const Point3& p : {Point3{0.4, 0.4, 0.5}, {0.5, 0.4, 0.52}, {0.5, 0.5, 0.5}, {0.4, 0.5, 0.52}})
+    input.vertices.push_back(p);
+  input.triangles.push_back({first, first + 1, first + 2});
+  input.triangles.push_back({first, first + 2, first + 3});
+  EXPECT_EQ(count_of(repaired(input, 1), "sheets"), 2u);
+}
+
+TEST(Repair, RefusesAFlatSheetAtOnce) {
+  plc::InputPlc input = gridded_cube(40);
+  merge_equal_vertices(input);
+  input.triangles.resize(3200);  // one side
+  EXPECT_THROW(repair::repair_input(input), InputError);
+}
+
+TEST(Repair, EndsInTime) {
+  plc::InputPlc input = models::make_solid("sphere", 0.05);
+  append(input, rotated(arbitrary, input));
+  EXPECT_TRUE(repair::repair_input(input, {.seconds = 1e-9}).is_out_of_time);
+  EXPECT_FALSE(repair::repair_input(input).is_out_of_time);
 }
 
 TEST(Repair, FillsHolesOfCurvedSurfaces) {
@@ -99,7 +163,7 @@ TEST(Repair, FillsHolesOfCurvedSurfaces) {
   std::mt19937_64 random(2);
   std::erase_if(input.triangles, [&](const auto&) { return random() % 20 == 0; });
   input.triangle_markers.clear();
-  EXPECT_GT(count_of(repaired(input, volume, 1e-2), "filled_holes"), 20u);
+  EXPECT_GT(count_of(repaired(input, volume, 1e-2, {.limit = 1}), "filled_holes"), 20u);
 }
 
 TEST(Repair, RemovesFlaps) {
@@ -183,7 +247,7 @@ TEST(Repair, MergesCopiesThatAlmostCoverEachOther) {
     plc::InputPlc copy = input;
     for (Point3& p : copy.vertices) p = p + Point3{shift, shift / 3, -shift / 2};
     append(input, copy);
-    EXPECT_TRUE(repair::find_faults(repair::repair_input(input).input).is_valid());
+    EXPECT_TRUE(repair::find_faults(repair::repair_input(input, {.limit = 10}).input).is_valid());
   }
 }
 
@@ -245,7 +309,7 @@ TEST(Repair, OfDamagedSolidsGivesValidOnes) {
     const plc::InputPlc input = damaged_solid(random);
     if (repair::find_faults(input).is_valid()) continue;
     ++damaged;
-    valid += repair::find_faults(repair::repair_input(input).input).is_valid();
+    valid += repair::find_faults(repair::repair_input(input, {.limit = 10}).input).is_valid();
   }
   EXPECT_GT(damaged, 300);
   // What was meant is not always known: a facet may have a corner anywhere.
