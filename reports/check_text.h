@@ -17,11 +17,11 @@ struct CheckReport {
   /// A repaired copy.
   struct Copy {
     std::string output;  ///< empty: nothing was written, because a limit forbade it
-    std::vector<repair::RepairStep> steps;
-    repair::Certificate certificate;
-    std::vector<std::string> refused;
+    std::vector<repair::RepairStep> steps = {};
+    repair::Certificate certificate = {};
+    std::vector<std::string> refused = {};
     bool is_out_of_time = false;
-    repair::Diagnosis diagnosis;  ///< of the file as it was written
+    repair::Diagnosis diagnosis = {};  ///< of the file as it was written
   };
   std::optional<Copy> copy = {};
 };

@@ -56,10 +56,12 @@ TEST(CheckText, InJsonListsFaultsAndWhatWasDone) {
   EXPECT_EQ(json()["faults"][1]["kind"], "crossing-facets");
   EXPECT_EQ(json()["faults"][1]["places"][0]["facets"], nlohmann::json({3, 12}));
   EXPECT_TRUE(json()["copy"].is_null());
-  report.copy = {"b.off", {{"filled_holes", "holes filled", 1}}, {}};
+  report.copy = {.output = "b.off", .steps = {{"filled_holes", "holes filled", 1}}, .refused = {"a wide hole"}};
   EXPECT_EQ(json()["copy"]["output"], "b.off");
   EXPECT_EQ(json()["copy"]["valid"], true);
   EXPECT_EQ(json()["copy"]["steps"][0]["count"], 1);
+  EXPECT_EQ(json()["copy"]["refused"], nlohmann::json({"a wide hole"}));
+  EXPECT_TRUE(json()["copy"]["certificate"]["genus"].is_null());
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST_F(CheckCommand, WritesARepairedCopyThatCanBeMeshed) {
   write_cube("open.off", 10, std::string(bottom) + sides);
   for (const char* extension : {"stl", "off", "obj", "ply", "poly", "smesh", "mesh", "meshb"}) {
     const std::string copy = std::string("copy.") + extension;
-    EXPECT_EQ(run("check open.off --repair -o " + copy + " --report report.json").exit_code, 0) << copy;
+    EXPECT_EQ(run("check open.off --repair --limit 1 -o " + copy + " --report report.json").exit_code, 0) << copy;
     EXPECT_EQ(report()["valid"], false);
     EXPECT_EQ(report()["copy"]["valid"], true) << copy;
     EXPECT_EQ(report()["copy"]["volume"], 1) << copy;
@@ -55,9 +55,39 @@ TEST_F(CheckCommand, WritesARepairedCopyThatCanBeMeshed) {
   }
 }
 
+TEST_F(CheckCommand, RefusesALidThatReachesTooFarAndNamesTheOptionThatAllowsIt) {
+  write_cube("open.off", 10, std::string(bottom) + sides);
+  const Outcome outcome = run("check open.off --repair -o copy.off --report report.json");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(work() / "copy.off"));
+  const Json copy = report()["copy"];
+  EXPECT_TRUE(copy["output"].is_null());
+  ASSERT_EQ(copy["refused"].size(), 1u);
+  const std::string refusal = copy["refused"][0];
+  const std::size_t begin = refusal.find("--limit ");
+  const std::string limit = refusal.substr(begin, refusal.rfind(" allows it") - begin);
+  EXPECT_EQ(run("check open.off --repair -o copy.off " + limit).exit_code, 0) << limit;
+}
+
+TEST_F(CheckCommand, SaysHowFarItCameInTheGivenTime) {
+  write_cube("open.off", 10, std::string(bottom) + sides);
+  EXPECT_EQ(run("check open.off --repair -o copy.off --time 1e-9 --report report.json").exit_code, 4);
+  EXPECT_EQ(report()["copy"]["out_of_time"], true);
+  EXPECT_TRUE(std::filesystem::exists(work() / "copy.off"));
+}
+
+TEST_F(CheckCommand, MeshRepairsAndKeepsTheSurfaceForVerify) {
+  write_cube("covered.off", 13, std::string(bottom) + sides + top + "3 4 5 7\n");
+  EXPECT_EQ(run("mesh covered.off -o covered.vtu").exit_code, 3);
+  ASSERT_EQ(run("mesh covered.off -o covered.vtu --repair --surface-output s.off --report report.json").exit_code, 0);
+  EXPECT_EQ(run("verify s.off covered.vtu").exit_code, 0);
+  EXPECT_EQ(report()["repaired"]["displacement"], 0);
+  EXPECT_NEAR(report()["repaired"]["area_removed"].get<double>(), 0.5, 1e-9);
+}
+
 TEST_F(CheckCommand, ReportMatchesItsSchema) {
   write_cube("open.off", 10, std::string(bottom) + sides);
-  ASSERT_EQ(run("check open.off --repair -o copy.off --report report.json").exit_code, 0);
+  ASSERT_EQ(run("check open.off --repair --limit 1 -o copy.off --report report.json").exit_code, 0);
   const std::string schema = text_of(CHECK_SCHEMA);
   EXPECT_NO_THROW(baselines::read_user_file(work() / "report.json", {"a report", schema.c_str(), ""}));
 }
@@ -89,7 +119,7 @@ TEST_F(CheckCommand, FileThatCannotBeReadIsAnErrorMessage) {
 TEST_F(CheckCommand, RefusesWrongUsage) {
   write_cube("cube.off", 12, std::string(bottom) + sides + top);
   for (const char* arguments : {"check", "check cube.off --repair", "check cube.off -o copy.off",
-                                "check cube.off --gap 1", "check cube.off --repair -o copy.off --gap 0"})
+                                "check cube.off --gap 1", "check cube.off --limit 1", "check cube.off --time 1", "check cube.off --repair -o copy.off --gap 0"})
     EXPECT_EQ(run(arguments).exit_code, 2) << arguments;
   EXPECT_EQ(run("check cube.off --repair -o cube.off").exit_code, 3);
   EXPECT_EQ(file_count(), 1u);
