@@ -137,7 +137,7 @@ std::string to_terminal(const CheckReport::Copy& copy) {
 std::string in_few_words(const repair::Certificate& certificate) {
   const auto rounded = [](double x) { return bench::rounded(x, 4); };
   std::string text = certificate.displacement == 0 ? "nothing moved"
-                                                    : "nothing moved farther than " + rounded(certificate.displacement);
+                                                   : "nothing moved farther than " + rounded(certificate.displacement);
   text += ", area " + rounded(certificate.area_before) + " became " + rounded(certificate.area_after);
   if (certificate.area_of_lids > 0)
     text += ", of which lids " + rounded(certificate.area_of_lids) + " (largest " + rounded(certificate.largest_lid) +

@@ -44,12 +44,8 @@ void print_diagnosis(const std::string& file, const repair::Diagnosis& diagnosis
 reports::CheckReport::Copy repaired_copy(const CheckCommand& command, const plc::InputPlc& input,
                                          const Progress& progress) {
   repair::Repaired repaired = repair::repair_input(input, command.options, progress);
-  reports::CheckReport::Copy copy{{},
-                                  std::move(repaired.steps),
-                                  repaired.certificate,
-                                  std::move(repaired.refused),
-                                  repaired.is_out_of_time,
-                                  {}};
+  reports::CheckReport::Copy copy{
+      {}, std::move(repaired.steps), repaired.certificate, std::move(repaired.refused), repaired.is_out_of_time, {}};
   if (copy.refused.empty()) {
     copy.output = command.output;
     io::write_plc(repaired.input, command.output);
@@ -111,10 +107,11 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
                    "default: a ten-thousandth of the largest extent")
       ->check(positive_number())
       ->needs(repair);
-  verb->add_option("--limit", command->options.limit,
-                   "with --repair: how far lids may reach from the rims of their holes, and how far everything else may "
-                   "move, in units of the input; default: a thousandth of the largest extent for lids, a millionth for "
-                   "everything else, or --gap where gaps were closed")
+  verb->add_option(
+          "--limit", command->options.limit,
+          "with --repair: how far lids may reach from the rims of their holes, and how far everything else may "
+          "move, in units of the input; default: a thousandth of the largest extent for lids, a millionth for "
+          "everything else, or --gap where gaps were closed")
       ->check(positive_number())
       ->needs(repair);
   verb->add_option("--time", command->options.seconds,
@@ -134,7 +131,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   verb->footer(
       "Errors keep an input from being meshed; notes do not, but the input may not be what was meant.\n"
       "Facets are numbered from 0, as in the file.\n"
-      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair; 4 its time\n"
+      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair; 4 its "
+      "time\n"
       "is over.\n\n"
       "Example: list what is wrong with a part\n"
       "  ccdt check part.stl\n"
@@ -142,9 +140,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "  ccdt check part.stl --repair --gap 0.01 -o repaired.off && ccdt mesh repaired.off -o part.vtu\n"
       "Example: fill holes with lids that reach up to 5 units from their rims\n"
       "  ccdt check part.stl --repair --limit 5 -o repaired.off\n");
-  verb->callback([command, &exit_code] {
-    exit_code = with_threads(command->threads, [&] { return run(*command); });
-  });
+  verb->callback([command, &exit_code] { exit_code = with_threads(command->threads, [&] { return run(*command); }); });
 }
 
 }  // namespace ccdt::tools

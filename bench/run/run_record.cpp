@@ -107,9 +107,8 @@ constexpr auto fields_after_seconds =
                field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status),
                field_if_any("kind", &RunRecord::kind), field_if_any("reason", &RunRecord::reason),
                field_if_any("case", &RunRecord::case_id), field_if_any("number", &RunRecord::number),
-               field_if_any("verification", &RunRecord::verification),
-               field_if_any("repaired", &RunRecord::repaired), field_if_any("notes", &RunRecord::notes),
-               field_if_any("samples", &RunRecord::samples));
+               field_if_any("verification", &RunRecord::verification), field_if_any("repaired", &RunRecord::repaired),
+               field_if_any("notes", &RunRecord::notes), field_if_any("samples", &RunRecord::samples));
 
 Json options_json(const RunRecord& record) {
   Json options = Json::object();

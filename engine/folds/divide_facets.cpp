@@ -211,7 +211,7 @@ void FacetDivider::add_segments(std::uint32_t f, plc::Plc& result) const {
     const auto [p, q, r] = corners_of(triangles[i]);
     const int turn = orient3d(p, q, r, plc_.vertices[apex]);
     result.segments.push_back(
-        {.ends = {a, b}, .grazeable = is_grazeable_fold(plc_, plc_.facets[f], turn), .inside = false});
+        {.ends = {a, b}, .grazeable = is_grazeable_fold(plc_, plc_.facets[f], turn), .listed = false});
   }
 }
 

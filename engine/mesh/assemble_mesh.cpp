@@ -269,7 +269,7 @@ void drop_foreign_edges(const plc::Plc& plc, const protection::SegmentChains& ch
   std::size_t next = 0, kept = 0;
   for (std::size_t s = 0; s < chains.size(); ++s)
     for (std::size_t i = 0; i + 1 < chains[s].size(); ++i, ++next) {
-      if (!plc.segments[s].inside) continue;
+      if (!plc.segments[s].listed) continue;
       mesh.edges[kept] = mesh.edges[next];
       mesh.edge_markers[kept++] = mesh.edge_markers[next];
     }

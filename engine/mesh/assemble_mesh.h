@@ -33,7 +33,7 @@ std::vector<std::uint32_t> finish_mesh(const plc::Plc& plc, const protection::Se
 /// Gives a mesh the edges of the segments, with their markers.
 void list_edges(const plc::Plc& plc, const protection::SegmentChains& chains, TetMesh& mesh);
 
-/// Leaves of these edges only those of `Segment::inside`: improvement needs folds, but no reader of the mesh does.
+/// Leaves of these edges only those of `Segment::listed`: improvement needs folds, but no reader of the mesh does.
 void drop_foreign_edges(const plc::Plc& plc, const protection::SegmentChains& chains, TetMesh& mesh);
 
 /// The vertices of a mesh in the units of the input. Input vertices get back their original coordinates wherever every

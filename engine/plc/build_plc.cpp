@@ -103,7 +103,7 @@ std::vector<Segment> collect_segments(std::span<const Point3> vertices, const Pl
     const std::uint32_t s = parts.match.loose[i];
     const bool inside = map.regions[map.of_loose[i]].inside;
     segments.push_back(
-        {.ends = parts.segments.ends[s], .marker = parts.segments.markers[s], .grazeable = inside, .inside = inside});
+        {.ends = parts.segments.ends[s], .marker = parts.segments.markers[s], .grazeable = inside, .listed = inside});
   }
   return segments;
 }

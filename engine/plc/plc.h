@@ -22,7 +22,7 @@ struct Segment {
   bool grazeable = false;        ///< the domain spans 180 degrees or more around it (Shewchuk 2002)
   bool touching = false;         ///< the domain touches itself along it: more than two triangles there bound the domain
   std::uint32_t face = no_face;  ///< of a triangle at it, in `Plc::faces`; then the segment is an edge there
-  bool inside = true;            ///< in or on the domain; not a fold, of which the input knows nothing
+  bool listed = true;            ///< in or on the domain; not a fold, of which the input knows nothing
 };
 
 /// A facet: a maximal connected coplanar patch of input facets with one marker, bounded by segments.

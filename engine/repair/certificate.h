@@ -16,7 +16,7 @@ using Corners = std::array<Point3, 3>;
 /// What fills a hole.
 struct Lid {
   std::vector<Corners> triangles;  ///< in grid units
-  double reach = 0;  ///< the largest distance of its points from the rim; an upper bound; see `reach_of`
+  double reach = 0;                ///< the largest distance of its points from the rim; an upper bound; see `reach_of`
 };
 
 /// How far points of a lid are from its rim.
@@ -28,14 +28,14 @@ double reach_of(std::span<const Corners> lid, std::span<const Point3> rim);
 
 /// How a repaired surface differs from what was given. Lengths and areas are in units of the input.
 struct Certificate {
-  /// No point of the repaired surface, lids apart, is farther from the given surface, and no point of the given surface,
-  /// apart from what was removed, is farther from the repaired one. An upper bound.
+  /// No point of the repaired surface, lids apart, is farther from the given surface, and no point of the given
+  /// surface, apart from what was removed, is farther from the repaired one. An upper bound.
   double displacement = 0;
   double area_before = 0, area_after = 0;
   double area_of_lids = 0;
-  double area_removed = 0;           ///< duplicates, flaps, loose sheets, and walls inside a union
-  double largest_lid = 0;            ///< its area
-  double farthest_lid = 0;           ///< the largest distance of a lid from its rim; see `Lid`
+  double area_removed = 0;              ///< duplicates, flaps, loose sheets, and walls inside a union
+  double largest_lid = 0;               ///< its area
+  double farthest_lid = 0;              ///< the largest distance of a lid from its rim; see `Lid`
   std::optional<double> volume_before;  ///< of a given surface without open edges, by its own orientation
   std::uint64_t components_before = 0, components_after = 0;  ///< parts connected by edges
   std::optional<std::int64_t> genus;                          ///< of the repaired surface if it is a closed manifold

@@ -56,8 +56,7 @@ plc::TriangleSet remove_sheets(plc::UncheckedPlc& soup) {
       for (const std::uint32_t t : part.triangles) is_kept[t] = 0;
   plc::TriangleSet removed;
   for (std::uint32_t t = 0; t < is_kept.size(); ++t)
-    if (is_kept[t] == 0)
-      removed.add(soup.triangles.corners[t], soup.triangles.markers[t], soup.triangles.numbers[t]);
+    if (is_kept[t] == 0) removed.add(soup.triangles.corners[t], soup.triangles.markers[t], soup.triangles.numbers[t]);
   if (removed.size() > 0) plc::keep_triangles(is_kept, soup.triangles);
   return removed;
 }

@@ -264,7 +264,8 @@ class Repair {
     if (left_open_ > 0)
       result_.refused.push_back(
           (left_open_ == 1 ? std::string("a hole stays open: its lid") : "holes stay open: the farthest lid") +
-          " would reach " + digits(unit * farthest_) + " from its rim, and " + allowed(unit * farthest_, limits_.reach));
+          " would reach " + digits(unit * farthest_) + " from its rim, and " +
+          allowed(unit * farthest_, limits_.reach));
     if (result_.certificate.displacement > unit * limits_.displacement)
       result_.refused.push_back("the surface would move by up to " + digits(result_.certificate.displacement) +
                                 ", and " + allowed(result_.certificate.displacement, limits_.displacement));

@@ -15,9 +15,9 @@ namespace ccdt::repair {
 
 struct RepairOptions {
   double flatness = usual_flatness;  ///< tolerance for flat facets, as in the mesher
-  double gap = 0;    ///< the widest gap to close, in the units of the input; 0: `usual_gap` of the largest extent
-  double limit = 0;  ///< how far lids may reach from their rims, and everything else may move, in the units of the
-                     ///< input; 0: `usual_reach` and `usual_displacement` of the largest extent
+  double gap = 0;      ///< the widest gap to close, in the units of the input; 0: `usual_gap` of the largest extent
+  double limit = 0;    ///< how far lids may reach from their rims, and everything else may move, in the units of the
+                       ///< input; 0: `usual_reach` and `usual_displacement` of the largest extent
   double seconds = 0;  ///< after this time no further step is begun; 0: `usual_seconds`
 };
 
@@ -29,8 +29,8 @@ double usual_seconds(std::size_t facets);
 
 /// Something that was done to an input.
 struct RepairStep {
-  std::string_view name;           ///< for JSON
-  std::string_view what;           ///< what was counted
+  std::string_view name;  ///< for JSON
+  std::string_view what;  ///< what was counted
   std::uint64_t count = 0;
   std::vector<Place> places = {};  ///< of the first ones: points in the units of the input, numbers of facets
 };

@@ -22,7 +22,7 @@ InputPlc box() {
   return scene.plc();
 }
 
-constexpr std::uint64_t seeds = is_sanitized ? 60 : 300;
+constexpr std::uint64_t seeds = is_sanitized ? 25 : 300;
 
 TEST(ProvingGround, AllStrategiesAgreeOnStructuredPlcsAndTheirMeshesAreRight) {
   std::uint64_t right = 0;

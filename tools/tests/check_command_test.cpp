@@ -118,8 +118,9 @@ TEST_F(CheckCommand, FileThatCannotBeReadIsAnErrorMessage) {
 
 TEST_F(CheckCommand, RefusesWrongUsage) {
   write_cube("cube.off", 12, std::string(bottom) + sides + top);
-  for (const char* arguments : {"check", "check cube.off --repair", "check cube.off -o copy.off",
-                                "check cube.off --gap 1", "check cube.off --limit 1", "check cube.off --time 1", "check cube.off --repair -o copy.off --gap 0"})
+  for (const char* arguments :
+       {"check", "check cube.off --repair", "check cube.off -o copy.off", "check cube.off --gap 1",
+        "check cube.off --limit 1", "check cube.off --time 1", "check cube.off --repair -o copy.off --gap 0"})
     EXPECT_EQ(run(arguments).exit_code, 2) << arguments;
   EXPECT_EQ(run("check cube.off --repair -o cube.off").exit_code, 3);
   EXPECT_EQ(file_count(), 1u);

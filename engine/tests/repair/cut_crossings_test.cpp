@@ -20,6 +20,7 @@
 #include "engine/plc/close_triangles.h"
 #include "engine/repair/cut_crossings.h"
 #include "engine/tests/shared/plc_test_solids.h"
+#include "engine/tests/shared/sanitized.h"
 #include "models/solids.h"
 
 namespace ccdt {
@@ -247,6 +248,8 @@ TEST(CutCrossings, DivideSegmentsWithTheirEdges) {
   EXPECT_EQ(result.soup.segments.markers, (std::vector{5, 5, 6}));
 }
 
+constexpr unsigned most_seeds = is_sanitized ? 50 : 200;
+
 // ---- Random solids --------------------------------------------------------------------------------------------------
 
 plc::InputPlc tetrahedron(const std::array<Point3, 4>& corners) {
@@ -291,7 +294,7 @@ plc::InputPlc random_soup(unsigned seed, const MakeSolid& make_solid) {
 }
 
 TEST(CutCrossings, EndForRandomSolids) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < most_seeds; ++seed) {
     SCOPED_TRACE(seed);
     const Result result = cut(random_soup(seed, random_solid));
     EXPECT_LE(result.counts.rounds, 1u);
@@ -301,7 +304,7 @@ TEST(CutCrossings, EndForRandomSolids) {
 }
 
 TEST(CutCrossings, EndForRandomSolidsOnALattice) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < most_seeds; ++seed) {
     SCOPED_TRACE(seed);
     expect_valid(cut(random_soup(seed, random_solid_on_lattice)));
   }
@@ -309,7 +312,7 @@ TEST(CutCrossings, EndForRandomSolidsOnALattice) {
 
 /// Their facets touch only within the rounding of their vertices.
 TEST(CutCrossings, WeldTurnedSolidsOfALattice) {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < most_seeds; ++seed) {
     SCOPED_TRACE(seed);
     const plc::InputPlc input = random_soup(seed, random_solid_on_lattice);
     const Result straight = cut(input), turned = cut(rotated(plc_test::arbitrary, input));

@@ -33,7 +33,7 @@ TEST(Threads, CheckAndRepairTheSameWay) {
   const plc::InputPlc input = broken_spheres();
   const auto run = [&](unsigned threads) {
     return with_threads(threads, [&] {
-      const repair::Repaired repaired = repair::repair_input(input);
+      const repair::Repaired repaired = repair::repair_input(input, {.limit = 1});
       return std::pair{repaired.input, repair::find_faults(repaired.input).volume};
     });
   };

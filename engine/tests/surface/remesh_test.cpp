@@ -183,6 +183,7 @@ TEST(Remeshing, RimOfACylinderStaysRound) {
   const InputPlc cylinder = prism(circle);
   const double before = inside_volume(plc::build_plc(cylinder));
   for (const double h : {0.1, 0.2, 1.0, 5.0}) {
+    if (is_sanitized && h < 0.2) continue;
     SCOPED_TRACE(h);
     const InputPlc result = remeshed(cylinder, h);
     EXPECT_NEAR(sharp_length(result, 60), sharp_length(cylinder, 60), 0.01 * sharp_length(cylinder, 60));
@@ -211,6 +212,7 @@ TEST(Remeshing, ConeKeepsItsTipAndGetsEvenTriangles) {
   for (const double height : {0.9, 2.0, 4.0})
     for (const int sides : {32, 256})
       for (const double sharp_angle : {30, 60}) {
+        if (is_sanitized && sides > 32) continue;
         SCOPED_TRACE("height " + std::to_string(height) + ", " + std::to_string(sides) + " sides");
         const InputPlc before = cone(sides, height), after = remeshed(before, h, sharp_angle);
         EXPECT_NE(std::ranges::find(after.vertices, Point3{0, 0, height}), after.vertices.end());
@@ -222,6 +224,7 @@ TEST(Remeshing, ConeKeepsItsTipAndGetsEvenTriangles) {
 
 TEST(Remeshing, ModelsReachTheirEdgeLength) {
   for (const auto& [name, h] : {std::pair{"piston", 5.0}, {"bracket", 5.0}, {"stepping-pole", 2.5}}) {
+    if (is_sanitized && h == 2.5) continue;
     SCOPED_TRACE(name);
     const InputPlc plc = models::make_solid(name, h), result = remeshed(plc, h);
     const double before = inside_volume(plc::build_plc(plc));
@@ -259,6 +262,7 @@ TEST(Remeshing, NoTriangleHasASmallAngleWhereNoFeatureForbidsIt) {
                                       {"piston", 5.0, 5.0},
                                       {"stepping-pole", 2.5, 2.5},
                                       {"stepping-pole", 2.5, 5.0}}) {
+    if (is_sanitized && h == 2.5) continue;
     SCOPED_TRACE(std::string(name) + " " + std::to_string(h));
     EXPECT_GE(smallest_angles(remeshed(models::make_solid(name, made), h)).front(), 30);
   }
@@ -310,6 +314,7 @@ TEST(RemeshedThinParts, EdgesFitTheThicknessOfAPlate) {
 
 TEST(RemeshedThinParts, ExtremelyThinPlatesAreRemeshed) {
   for (const double height : {4e-3, 4e-6, 4e-9}) {
+    if (is_sanitized && height < 1e-6) continue;
     SCOPED_TRACE(height);
     for (const InputPlc& plate : {gridded_plate(4, height), rotated(oblique, gridded_plate(4, height))}) {
       const InputPlc result = remeshed(plate, 0.3);
@@ -440,7 +445,8 @@ TEST(RemeshedParts, MeshAtEveryEdgeLengthAndKeepTheirVolume) {
     const InputPlc input = io::read_plc(file);
     const double before = inside_volume(plc::build_plc(input));
     for (const double factor : {1.0, 2.0, 4.0}) {
-      if ((name == "cheese" || is_sanitized) && factor != 2) continue;  // its bores take seconds
+      if (name == "cheese" && factor != 2) continue;  // its bores take seconds
+      if (is_sanitized && (name != "joint" || factor != 2)) continue;
       SCOPED_TRACE(name + " " + std::to_string(factor));
       const InputPlc result = remeshed(input, factor * mean_edge_length(input));
       EXPECT_NEAR(inside_volume(plc::build_plc(result)), before, 0.02 * factor * before);
