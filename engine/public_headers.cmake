@@ -23,6 +23,7 @@ set(public_headers
   mesher.h
   plc/input.h
   protection/options.h
+  repair/certificate.h
   repair/faults.h
   repair/find_faults.h
   repair/repair_input.h

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/plc/build_plc.h"
-#include "engine/repair/certificate.h"
+#include "engine/repair/certify.h"
 #include "engine/repair/open_edges.h"
 
 namespace ccdt::repair {

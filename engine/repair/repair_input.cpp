@@ -10,6 +10,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/repair/certify.h"
 #include "engine/repair/close_gaps.h"
 #include "engine/repair/cut_crossings.h"
 #include "engine/repair/equal_triangles.h"

@@ -151,7 +151,7 @@ TEST(Repair, RefusesAFlatSheetAtOnce) {
 }
 
 TEST(Repair, EndsInTime) {
-  plc::InputPlc input = models::make_solid("sphere", 0.05);
+  plc::InputPlc input = models::make_solid("sphere", 0.2);
   append(input, rotated(arbitrary, input));
   EXPECT_TRUE(repair::repair_input(input, {.seconds = 1e-9}).is_out_of_time);
   EXPECT_FALSE(repair::repair_input(input).is_out_of_time);

@@ -1,4 +1,4 @@
-#include "engine/repair/certificate.h"
+#include "engine/repair/certify.h"
 
 #include <algorithm>
 #include <cmath>
