@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/box.h"
@@ -48,13 +50,16 @@ Progress until(double seconds, const Progress& progress) {
 /// What is allowed, in grid units.
 struct Limits {
   double gap, reach, displacement;
+  double weld;  // a usual displacement, whatever lids may do
 };
 
 Limits limits_of(const RepairOptions& options, const plc::Plc& plc) {
   const double extent = largest_extent(plc.vertices), limit = options.limit / plc.grid.unit;
+  const double displacement = limit > 0 ? limit : usual_displacement * extent;
   return {.gap = options.gap > 0 ? options.gap / plc.grid.unit : usual_gap * extent,
           .reach = limit > 0 ? limit : usual_reach * extent,
-          .displacement = limit > 0 ? limit : usual_displacement * extent};
+          .displacement = displacement,
+          .weld = std::min(displacement, usual_displacement * extent)};
 }
 
 /// Turns triangles that face the opposite way from the given ones with the same corners.
@@ -117,13 +122,9 @@ class Repair {
     note_gathered();
     try {
       report(progress_, repair_stage, 0, steps_of_repair);
-      if (is_surface(input_)) {
-        join_open_edges();
-        report(progress_, repair_stage, 1, steps_of_repair);
-        repair_surface();
-      } else {
-        cut_and_unite(false);
-      }
+      if (is_surface(input_)) join_open_edges();
+      report(progress_, repair_stage, 1, steps_of_repair);
+      repair_with_larger_welds();
     } catch (const OutOfTime&) {
       result_.is_out_of_time = true;
     }
@@ -208,7 +209,7 @@ class Repair {
 
   CutCounts cut_and_unite(bool weld_everywhere) {
     const OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
-    const CutCounts cuts = cut_crossings(parts_, {tolerance(), weld_everywhere}, progress_);
+    const CutCounts cuts = cut_crossings(parts_, {reach_, weld_everywhere}, progress_);
     add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
     check_something_is_enclosed();
     if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input_)) return cuts;
@@ -234,9 +235,29 @@ class Repair {
     }
   }
 
+  /// Things that should touch may be farther apart than facets from being flat: as far as a file with few digits
+  /// rounds. So larger welds are tried where smaller ones do not lead to a valid surface.
+  void repair_with_larger_welds() {
+    const auto state = [&] { return std::tie(parts_, lids_, result_.steps); };
+    using State = std::tuple<plc::UncheckedPlc, std::vector<Lid>, std::vector<RepairStep>>;
+    const State before = state();
+    std::optional<State> first;
+    for (const double reach : {tolerance(), limits_.weld / 8, limits_.weld / 2}) {
+      if (reach < reach_) continue;
+      if (reach_ > 0) state() = before;
+      reach_ = reach;
+      if (is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0) return;
+      if (!first) first = state();
+      if (left_open_ > 0) break;
+    }
+    state() = *first;
+  }
+
   /// Closes the surface, cuts it, and turns it outward. What fills a hole can cross other facets, and cuts can leave
   /// flaps.
-  void repair_surface() {
+  ///
+  /// \return  is it valid?
+  bool repair_surface() {
     constexpr int most_rounds = 5;
     const std::vector<plc::VertexTriple> as_given = parts_.triangles.corners;
     bool are_comparable = true;  // pieces of facets cannot be compared with these
@@ -247,14 +268,16 @@ class Repair {
       if (cuts.pairs > 0) are_comparable = false;
       crossings = cuts.left;
     }
-    if (crossings == 0 && !turn_outward()) {
+    bool is_valid = crossings == 0 && turn_outward();
+    if (crossings == 0 && !is_valid) {
       // Facets may cover each other within the tolerance without a crossing.
       are_comparable = false;
-      if (cut_and_unite(true).left == 0) turn_outward();
+      is_valid = cut_and_unite(true).left == 0 && turn_outward();
     }
-    if (!are_comparable) return;
+    if (!are_comparable) return is_valid;
     std::vector<plc::VertexTriple> now = parts_.triangles.corners;
     add("turned_facets", "facets turned", turn_like(as_given, parts_.plc.vertices.size(), now));
+    return is_valid;
   }
 
   void note_limits() {
@@ -281,6 +304,7 @@ class Repair {
   plc::UncheckedPlc& parts_;  // of the soup
   const plc::UncheckedPlc given_;
   Limits limits_;
+  double reach_ = 0;  // of welds
   std::vector<Lid> lids_;
   std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last
   double farthest_ = 0;        // how far those would reach

@@ -17,7 +17,6 @@
 #include "engine/refine/segment_fans.h"
 #include "engine/tests/shared/mesh_checks.h"
 #include "engine/tests/shared/mesh_test_solids.h"
-#include "engine/tests/shared/sanitized.h"
 #include "models/solids.h"
 
 namespace ccdt::refine {
@@ -210,7 +209,7 @@ TEST(Refine, ExtremelyThinWallsDoNotTakeForever) {
 TEST(Refine, ThinPlacesCostInProportionToTheRest) {
   const InputPlc plate = box({0, 0, 0}, {10, 10, 1e-4});
   const std::size_t few = refined(plate, 2).after.plc.triangles.size(),
-                    many = refined(plate, is_sanitized ? 0.5 : 0.25).after.plc.triangles.size();
+                    many = refined(plate, 0.25).after.plc.triangles.size();
   EXPECT_GT(few, 1000u);
   EXPECT_LT(few, 20000u);
   EXPECT_GT(many, 10000u);
