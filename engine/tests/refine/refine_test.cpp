@@ -17,6 +17,7 @@
 #include "engine/refine/segment_fans.h"
 #include "engine/tests/shared/mesh_checks.h"
 #include "engine/tests/shared/mesh_test_solids.h"
+#include "engine/tests/shared/sanitized.h"
 #include "models/solids.h"
 
 namespace ccdt::refine {
