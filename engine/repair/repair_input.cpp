@@ -238,17 +238,22 @@ class Repair {
   /// Things that should touch may be farther apart than facets from being flat: as far as a file with few digits
   /// rounds. So larger welds are tried where smaller ones do not lead to a valid surface.
   void repair_with_larger_welds() {
-    const auto state = [&] { return std::tie(parts_, lids_, result_.steps); };
-    using State = std::tuple<plc::UncheckedPlc, std::vector<Lid>, std::vector<RepairStep>>;
+    const auto state = [&] { return std::tie(parts_, lids_, left_open_, farthest_, result_.steps); };
+    using State = std::tuple<plc::UncheckedPlc, std::vector<Lid>, std::size_t, double, std::vector<RepairStep>>;
     const State before = state();
-    std::optional<State> first;
-    for (const double reach : {tolerance(), limits_.weld / 8, limits_.weld / 2}) {
-      if (reach < reach_) continue;
-      if (reach_ > 0) state() = before;
-      reach_ = reach;
-      if (is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0) return;
-      if (!first) first = state();
-      if (left_open_ > 0) break;
+    std::optional<State> first;  // all have failed: larger welds changed more for nothing
+    try {
+      for (const double reach : {tolerance(), limits_.weld / 8, limits_.weld / 2}) {
+        if (reach < reach_) continue;
+        if (reach_ > 0) state() = before;
+        reach_ = reach;
+        if (is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0) return;
+        if (!first) first = state();
+        if (is_given_open_) break;
+      }
+    } catch (const OutOfTime&) {
+      if (first) state() = *first;
+      throw;
     }
     state() = *first;
   }
@@ -264,6 +269,7 @@ class Repair {
     std::size_t crossings = 0;
     for (int round = 0; round < most_rounds; ++round) {
       if (!close_surface() && round > 0) break;
+      if (round == 0) is_given_open_ = left_open_ > 0;
       const CutCounts cuts = cut_and_unite(false);
       if (cuts.pairs > 0) are_comparable = false;
       crossings = cuts.left;
@@ -304,7 +310,8 @@ class Repair {
   plc::UncheckedPlc& parts_;  // of the soup
   const plc::UncheckedPlc given_;
   Limits limits_;
-  double reach_ = 0;  // of welds
+  double reach_ = 0;            // of welds
+  bool is_given_open_ = false;  // has holes before anything is cut that must stay open
   std::vector<Lid> lids_;
   std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last
   double farthest_ = 0;        // how far those would reach

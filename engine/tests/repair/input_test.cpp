@@ -239,6 +239,26 @@ TEST(Repair, JoinsTurnedSolidsThatTouchWithinTheRoundingOfSinglePrecision) {
   }
 }
 
+/// The digits of a file round more than the tolerance for flat facets.
+TEST(Repair, JoinsTurnedSolidsOfAFileWithFewDigits) {
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    plc::InputPlc input = box({0, 0, 0}, {3, 3, 3});
+    append(input, box({2, 1, 1}, {5, 4, 2}));
+    append(input, box({1, 1, 0}, {4, 2, 3}));
+    append(input, box({0, 2, 3}, {3, 4, 4}));
+    input = rotated(rotation(1, 0.1 * i, 0.7 - 0.02 * i, 0.3), input);
+    for (Point3& p : input.vertices)
+      p = {1e-6 * std::round(1e6 * p.x), 1e-6 * std::round(1e6 * p.y), 1e-6 * std::round(1e6 * p.z)};
+    const repair::Repaired result = repair::repair_input(input);
+    const Diagnosis diagnosis = repair::find_faults(result.input);
+    EXPECT_TRUE(diagnosis.is_valid());
+    EXPECT_TRUE(result.refused.empty());
+    EXPECT_NEAR(diagnosis.volume, 27 + (9 - 2) + 2 + 6, 1e-4);
+    EXPECT_LT(result.certificate.displacement, 5e-6);
+  }
+}
+
 TEST(Repair, MergesCopiesThatAlmostCoverEachOther) {
   for (const double shift : {1e-9, 1e-8}) {
     SCOPED_TRACE(shift);
