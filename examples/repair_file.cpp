@@ -2,6 +2,7 @@
 #include <ccdt/ccdt.h>
 
 #include <cstdio>
+#include <string>
 
 int main(int argc, char** argv) try {
   if (argc != 3) {
@@ -14,9 +15,11 @@ int main(int argc, char** argv) try {
                 static_cast<unsigned long long>(fault.count));
 
   // Lengths are in the units of the file.
-  const ccdt::repair::Repaired repaired = ccdt::repair_input(input, {.gap = 0.001});
+  const ccdt::repair::Repaired repaired = ccdt::repair_input(input, {.gap = 0.001, .limit = 1});
   for (const ccdt::repair::RepairStep& step : repaired.steps)
     std::printf("%s: %llu\n", step.what.data(), static_cast<unsigned long long>(step.count));
+  for (const std::string& refusal : repaired.refused) std::printf("not repaired: %s\n", refusal.c_str());
+  std::printf("nothing moved farther than %g\n", repaired.certificate.displacement);
   ccdt::write_plc(repaired.input, argv[2]);
 
   const ccdt::repair::Diagnosis left = ccdt::find_faults(repaired.input);
