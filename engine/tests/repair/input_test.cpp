@@ -241,7 +241,7 @@ TEST(Repair, JoinsTurnedSolidsThatTouchWithinTheRoundingOfSinglePrecision) {
 
 /// The digits of a file round more than the tolerance for flat facets.
 TEST(Repair, JoinsTurnedSolidsOfAFileWithFewDigits) {
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 6; ++i) {
     SCOPED_TRACE(i);
     plc::InputPlc input = box({0, 0, 0}, {3, 3, 3});
     append(input, box({2, 1, 1}, {5, 4, 2}));
