@@ -66,7 +66,7 @@ void print_copy(const CheckCommand& command, const reports::CheckReport::Copy& c
   print(reports::to_terminal(copy));
   for (const std::string& refusal : copy.refused) print_error_line("not repaired: " + refusal);
   if (copy.is_out_of_time)
-    print_error_line("the time is over, and the copy is what was reached; --time gives the repair more seconds");
+    print_error_line("out of time: the copy is unfinished; --time gives the repair more seconds");
   if (!copy.output.empty()) print_diagnosis(command.output, copy.diagnosis, command.details);
 }
 
@@ -131,9 +131,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   verb->footer(
       "Errors keep an input from being meshed; notes do not, but the input may not be what was meant.\n"
       "Facets are numbered from 0, as in the file.\n"
-      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair; 4 its "
-      "time\n"
-      "is over.\n\n"
+      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair;\n"
+      "4 the repair ran out of time.\n\n"
       "Example: list what is wrong with a part\n"
       "  ccdt check part.stl\n"
       "Example: repair it, close gaps of up to 0.01 units, and mesh the copy\n"

@@ -21,13 +21,13 @@ double area_of(const Corners& t) {
   return 0.5 * length(area_vector(t));
 }
 
-/// Finds the triangle of a set that the farthest corner of a given one is nearest to.
+/// Bounds the distance of a triangle from a set of triangles.
 class NearestTriangle {
  public:
   explicit NearestTriangle(std::vector<Corners> triangles)
       : triangles_(std::move(triangles)), tree_(triangles_, [](const Corners& t) { return bounding_box(t); }) {}
 
-  /// An upper bound of the squared distance of all points of the triangle.
+  /// No point of t is farther from the set than the square root of this.
   double squared_bound(const Corners& t) const {
     double least = std::numeric_limits<double>::infinity();
     const auto lower = [&](const Box& box, double) {

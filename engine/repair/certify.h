@@ -20,8 +20,8 @@ struct Lid {
 
 /// How far points of a lid are from its rim.
 ///
-/// \param rim  the vertices around the hole
 /// \param lid  not empty
+/// \param rim  the vertices around the hole
 /// \return  an upper bound of the largest distance, usually at most a tenth too large
 double reach_of(std::span<const Corners> lid, std::span<const Point3> rim);
 

@@ -83,7 +83,7 @@ std::vector<VertexId> merge_vertices(plc::UncheckedPlc& soup, double width) {
     const double most = std::min(reach[a], reach[b]);
     if (a == b || squared_length(points[b] - points[a]) > most * most) continue;
     reach[sets.join(a, b)] = most;
-    merged.emplace_back(b);
+    merged.emplace_back(std::max(a, b));
   }
   const auto follow = [&](VertexId& v) { v = VertexId(sets.find(v)); };
   for (plc::VertexTriple& corners : soup.triangles.corners) std::ranges::for_each(corners, follow);
@@ -151,9 +151,8 @@ std::size_t split_open_edges(plc::UncheckedPlc& soup, double width) {
 GapCounts close_gaps(plc::UncheckedPlc& soup, double width) {
   GapCounts counts;
   const auto drop_collapsed = [&] { plc::drop_triangles_without_area(soup.plc.vertices, soup.triangles); };
-  counts.moved = merge_vertices(soup, width);
-  counts.merged_vertices = counts.moved.size();
-  if (counts.merged_vertices > 0) drop_collapsed();
+  counts.merged = merge_vertices(soup, width);
+  if (!counts.merged.empty()) drop_collapsed();
   // Each triangle has three edges, and pieces of them may have further vertices beside them.
   constexpr int most_rounds = 8;
   for (int round = 0; round < most_rounds; ++round) {

@@ -9,9 +9,8 @@ namespace ccdt::repair {
 
 /// What was done to gaps.
 struct GapCounts {
-  std::size_t merged_vertices = 0;  ///< moved to another one nearby
-  std::size_t split_edges = 0;      ///< at nearby vertices
-  std::vector<VertexId> moved;      ///< the merged ones, where they were
+  std::size_t split_edges = 0;   ///< at nearby vertices
+  std::vector<VertexId> merged;  ///< with one nearby, and where they were
 };
 
 /// Closes narrow gaps between open edges. Vertices of open edges are merged with others nearby, the nearest first. Then

@@ -172,9 +172,9 @@ class Repair {
   void join_open_edges() {
     const GapCounts gaps = close_gaps(parts_, limits_.gap);
     std::vector<Place> merged;
-    for (const VertexId v : gaps.moved) merged.push_back(place_of({&v, 1}));
-    if (gaps.merged_vertices + gaps.split_edges > 0) limits_.displacement = std::max(limits_.displacement, limits_.gap);
-    add("merged_vertices", "vertices of open edges merged with one nearby", gaps.merged_vertices, std::move(merged));
+    for (const VertexId v : gaps.merged) merged.push_back(place_of({&v, 1}));
+    if (gaps.merged.size() + gaps.split_edges > 0) limits_.displacement = std::max(limits_.displacement, limits_.gap);
+    add("merged_vertices", "vertices of open edges merged with one nearby", gaps.merged.size(), std::move(merged));
     add("split_edges", "open edges split at nearby vertices", gaps.split_edges);
     add("collapsed_facets", "duplicate facets removed afterward", drop_equal_triangles(parts_.triangles, Fins::keep));
   }
