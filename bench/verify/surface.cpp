@@ -347,14 +347,17 @@ Tolerances find_tolerances(const plc::InputPlc& input, double flatness) {
   const double flat = slack * flatness_for(input.vertices, flatness) * box;
   // New vertices of the mesh are rounded, too.
   const double rounding = std::numeric_limits<double>::epsilon() * largest_coordinate(input.vertices);
-  return {box, 0.1 * flatness * box + rounding, flat + rounding, slack * flatness * box + rounding};
+  return {box, rounding, 0.1 * flatness * box + rounding, flat + rounding, slack * flatness * box + rounding};
 }
 
-Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness) {
-  constexpr double rounding = 1e-12;  // of coordinates as doubles
-  Tolerances tolerances = find_tolerances(input, flatness);
-  tolerances.place = tolerances.touch = rounding * tolerances.box;
-  return tolerances;
+Tolerances narrowed(const Tolerances& given, double part) {
+  const auto narrow = [&](double tolerance) { return part * (tolerance - given.rounding) + given.rounding; };
+  return {given.box, given.rounding, narrow(given.place), narrow(given.flat), narrow(given.touch)};
+}
+
+Tolerances exact_contacts(const Tolerances& given, double part) {
+  const double rounding = 1e-12 * given.box;  // of coordinates as doubles
+  return {given.box, rounding, rounding, narrowed(given, part).flat, rounding};
 }
 
 void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_number) {

@@ -13,17 +13,21 @@ namespace ccdt::verify {
 
 /// The tolerances, as lengths.
 struct Tolerances {
-  double box;    ///< largest extent of the input's bounding box
-  double place;  ///< two points are in one place
-  double flat;   ///< a patch is flat
-  double touch;  ///< a line lies on a piece
+  double box;       ///< largest extent of the input's bounding box
+  double rounding;  ///< of coordinates
+  double place;     ///< two points are in one place
+  double flat;      ///< a patch is flat
+  double touch;     ///< a line lies on a piece
 };
 
 Tolerances find_tolerances(const plc::InputPlc& input, double flatness);
 
-/// The same for exact coordinates (`put_on_grid`): then equal positions and contacts are exact up to the rounding of
-/// doubles.
-Tolerances find_tolerances_on_grid(const plc::InputPlc& input, double flatness);
+/// A part of the tolerances, from 0 (only the rounding) to 1.
+Tolerances narrowed(const Tolerances& given, double part);
+
+/// The tolerances for rounded coordinates (`put_on_grid`): equal positions and contacts are exact up to the rounding of
+/// doubles, and planes have a part of the given tolerance.
+Tolerances exact_contacts(const Tolerances& given, double part);
 
 /// The positions of the input's vertices, identified with vertices of the mesh, so that input and mesh can be compared
 /// by indices. A position without a vertex of the mesh gets a number after those of the mesh.

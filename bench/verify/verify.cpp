@@ -155,11 +155,11 @@ bool is_in_domain(const Surface& surface, const Regions& regions, RaysIfNeeded& 
          std::ranges::all_of(rays.pieces_near(p), is_within);
 }
 
-constexpr const char *vertices_check = "input vertices", *segments_check = "input segments";
+constexpr const char* segments_check = "input segments";
 
 /// Every input vertex in or on the domain is a vertex of the mesh, unless it may slide.
 Check check_vertices(const plc::InputPlc& input, const Surface& surface, const Regions& regions, RaysIfNeeded& rays) {
-  Check check{.name = surface.slides.empty() ? vertices_check : "input vertices that may not slide"};
+  Check check{.name = surface.slides.empty() ? "input vertices" : "input vertices that may not slide"};
   std::vector<bool> touched(surface.sites.position.size(), false), on_surface(touched);
   for (std::uint32_t p = 0; p < surface.pieces(); ++p)
     for (const auto& [site, next] : surface.edges_of(p)) {
@@ -319,40 +319,34 @@ bool holds_up_to(const char* name, const Verification& result) {
   return false;
 }
 
-/// The smallest tolerance to try after the given one.
-constexpr double least_flatness = 1e-11;
+/// The smallest part of the given tolerance that is tried.
+constexpr double least_part = 1e-3;
 
-/// Checks with smaller and smaller flatness until the mesh is right.
+/// If the mesh is not right at the given tolerances, smaller ones are tried as well. Facets that are right at one
+/// tolerance are right at all greater ones. But where facets are as narrow as the tolerance, they match the mesh in
+/// more than one way. Where parts are as close together as rounding moves coordinates, the mesh is compared with the
+/// rounded input: there, new vertices are exactly in place, and the engine leaves out just the facets without area.
 ///
-/// \param result  gets the checks if the mesh is found right
-void check_until_right(const plc::InputPlc& input, const Topology& topology, decltype(find_tolerances)& tolerances,
-                       double flatness, const VerifyOptions& options, const Progress& progress,
-                       const Verification& before, Verification& result) {
-  for (; !result.ok() && flatness > 0.5 * least_flatness; flatness /= 10) {
-    Verification closer = before;
-    check_against_input(input, topology, tolerances(input, flatness), options, progress, closer);
-    if (closer.ok()) result = std::move(closer);
-  }
-}
-
-/// If only facets are not found, smaller tolerances are tried as well. Facets that are right at one tolerance are right
-/// at all greater ones. But where facets are as narrow as the tolerance, they match the mesh in more than one way.
-/// Where parts are as close together as rounding moves coordinates, the mesh is compared with the rounded input: there,
-/// new vertices are exactly in place, and the engine leaves out just the facets without area.
-///
-/// \param result  gets the checks; if the mesh is never right, those at the given flatness
+/// \param result  gets the checks; if the mesh is never right, those at the given tolerances
 void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, const VerifyOptions& options,
                          const Progress& progress, Verification& result) {
   const Verification before = result;
-  check_against_input(input, topology, find_tolerances(input, options.flatness), options, progress, result);
-  if (result.ok() || options.flatness <= least_flatness || !holds_up_to(vertices_check, result)) return;
-  if (holds_up_to(segments_check, result))
-    check_until_right(input, topology, find_tolerances, options.flatness / 10, options, progress, before, result);
-  if (result.ok()) return;
+  const Tolerances given = find_tolerances(input, options.flatness);
+  check_against_input(input, topology, given, options, progress, result);
+  if (result.ok() || options.flatness <= 1e-11) return;
+  const bool lines_hold = holds_up_to(segments_check, result);
+  const auto try_parts = [&](const plc::InputPlc& its_input, const Topology& its_topology, double most,
+                             const auto& tolerances) {
+    for (double part = most; !result.ok() && part > 0.5 * least_part; part /= 10) {
+      Verification closer = before;
+      check_against_input(its_input, its_topology, tolerances(part), options, progress, closer);
+      if (closer.ok()) result = std::move(closer);
+    }
+  };
   const InputAndMesh rounded = put_on_grid(input, topology.mesh);
   if (check_orientation(rounded.mesh, progress).failed == 0)
-    check_until_right(rounded.input, find_topology(rounded.mesh), find_tolerances_on_grid, options.flatness, options,
-                      progress, before, result);
+    try_parts(rounded.input, find_topology(rounded.mesh), 1, [&](double part) { return exact_contacts(given, part); });
+  if (lines_hold) try_parts(input, topology, 0.1, [&](double part) { return narrowed(given, part); });
 }
 
 /// The boundary of the mesh as an input.
