@@ -38,9 +38,10 @@ RoundedSum volume_within(const plc::Plc& plc, const facets::FacetMesh& facets, s
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     const auto& t = facets.triangles[i];
     if (outward == 0) continue;
-    const double part = determinant(points[t[0]], points[t[1]], points[t[2]]);
-    volume += outward * part;
-    parts += length(points[t[0]]) * length(area_vector({points[t[0]], points[t[1]], points[t[2]]}));
+    // Not a determinant: its products are of the size of the box, however small the triangle is.
+    const Point3 twice_area = area_vector({points[t[0]], points[t[1]], points[t[2]]});
+    volume += outward * dot(points[t[0]], twice_area);
+    parts += length(points[t[0]]) * length(twice_area);
   }
   return {volume, 1e-13 * parts};
 }
