@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bench/verify/edit_surface.h"
+#include "bench/verify/exact.h"
 #include "bench/verify/patches.h"
 #include "bench/verify/piece_tree.h"
 #include "engine/base/parallel.h"
@@ -22,8 +23,17 @@ bool has_edge(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
   return std::ranges::any_of(surface.uses.of(edge), [&](std::uint32_t use) { return surface.piece_of[use] == piece; });
 }
 
+/// Is the edge exactly in the plane of the triangle?
+bool is_in_plane(const Surface& surface, std::uint32_t triangle, std::uint32_t edge) {
+  const auto sides = surface.edges_of(triangle);
+  return std::ranges::all_of(surface.edges[edge], [&](std::uint32_t end) {
+    return orientation(surface.at(sides[0][0]), surface.at(sides[1][0]), surface.at(sides[2][0]), surface.at(end)) == 0;
+  });
+}
+
 /// Is the edge parallel to the plane of the piece, up to the error of the slope of a piece of this size?
 bool runs_along(const Surface& surface, std::uint32_t piece, std::uint32_t edge) {
+  if (surface.tolerances.exact_contacts && surface.is_triangle(piece)) return is_in_plane(surface, piece, edge);
   const Point3& area = surface.area_vector[piece];
   const Point3 along = surface.at(surface.edges[edge][1]) - surface.at(surface.edges[edge][0]);
   const double squared_size = length(area);
@@ -182,13 +192,13 @@ void divide_patches(const Drawings& drawings, Surface& surface) {
 }  // namespace
 
 void embed_lines(Surface& surface) {
-  const PieceTree tree(surface);
-  std::vector<std::uint32_t> lines = find_touching(surface, tree);
+  const PieceTree given(surface);
+  std::vector<std::uint32_t> lines = find_touching(surface, given);
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e)
     if (surface.use_count(e) != 2) lines.push_back(e);
   if (lines.empty()) return;
-  split_at_touches(tree, lines, surface);
-  const Drawings drawings = find_drawings(surface, tree);
+  split_at_touches(given, lines, surface);
+  const Drawings drawings = find_drawings(surface, PieceTree(surface));  // a split may divide a piece
   if (!drawings.lines.empty()) divide_patches(drawings, surface);
 }
 

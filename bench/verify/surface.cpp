@@ -47,9 +47,48 @@ Point3 normal_of(std::span<const Edge> loop, std::span<const Point3> position) {
   return longest;
 }
 
+/// Finds which sites of a list are on an edge.
+class SiteFinder {
+ public:
+  SiteFinder(const Surface& surface, std::vector<std::uint32_t> sites)
+      : surface_(surface), sites_(std::move(sites)), tree_(boxes_of(surface, sites_), surface.tolerances) {}
+
+  /// The sites on the edge in order from its first end to its second, without the ends.
+  std::vector<std::uint32_t> within(const Edge& edge) const {
+    std::vector<std::uint32_t> near;
+    const Box box = hull(box_of(surface_.at(edge[0])), box_of(surface_.at(edge[1])));
+    tree_.for_each_meeting(expanded(box, surface_.tolerances.place),
+                           [&](std::uint32_t i) { near.push_back(sites_[i]); });
+    return select_within(surface_, edge, near);
+  }
+
+ private:
+  static RawVector<Box> boxes_of(const Surface& surface, std::span<const std::uint32_t> sites) {
+    RawVector<Box> places;
+    for (const std::uint32_t s : sites) places.push_back(box_of(surface.at(s)));
+    return places;
+  }
+
+  const Surface& surface_;
+  std::vector<std::uint32_t> sites_;
+  ScaledBoxTree tree_;
+};
+
 bool meets_a_site_twice(std::span<const Edge> loop) {
   std::set<std::uint32_t> met;
   return std::ranges::any_of(loop, [&](const Edge& e) { return !met.insert(e[0]).second; });
+}
+
+/// Is one of the loop's sites within one of its edges?
+bool runs_over_itself(const Surface& surface, std::span<const Edge> loop) {
+  constexpr std::size_t few = 32;
+  if (loop.size() == 3) return false;
+  std::vector<std::uint32_t> sites;
+  for (const Edge& e : loop) sites.push_back(e[0]);
+  if (loop.size() <= few)
+    return std::ranges::any_of(loop, [&](const Edge& e) { return !select_within(surface, e, sites).empty(); });
+  const SiteFinder finder(surface, std::move(sites));
+  return std::ranges::any_of(loop, [&](const Edge& e) { return !finder.within(e).empty(); });
 }
 
 /// A drawing of the facet as seen along the axis that is nearest to its normal.
@@ -187,7 +226,7 @@ PolygonCells find_polygon_cells(const plc::PolygonFacet& facet, plc::InputPlc::I
   PolygonCells result;
   std::vector<PolygonCell> polygons;
   for (const auto& polygon : facet.polygons) polygons.push_back(edges_of(polygon, site_of_input));
-  if (is_one_loop(facet) && !meets_a_site_twice(polygons[0])) {
+  if (is_one_loop(facet) && !meets_a_site_twice(polygons[0]) && !runs_over_itself(surface, polygons[0])) {
     result.cells.push_back(polygons[0]);
     return result;
   }
@@ -294,33 +333,6 @@ void index_edges(Surface& surface) {
   first.push_back(static_cast<std::uint32_t>(n));
 }
 
-/// Finds which sites of a list are on an edge.
-class SiteFinder {
- public:
-  SiteFinder(const Surface& surface, std::vector<std::uint32_t> sites)
-      : surface_(surface), sites_(std::move(sites)), tree_(boxes_of(surface, sites_), surface.tolerances) {}
-
-  /// The sites on the edge in order from its first end to its second, without the ends.
-  std::vector<std::uint32_t> within(const Edge& edge) const {
-    std::vector<std::uint32_t> near;
-    const Box box = hull(box_of(surface_.at(edge[0])), box_of(surface_.at(edge[1])));
-    tree_.for_each_meeting(expanded(box, surface_.tolerances.place),
-                           [&](std::uint32_t i) { near.push_back(sites_[i]); });
-    return select_within(surface_, edge, near);
-  }
-
- private:
-  static RawVector<Box> boxes_of(const Surface& surface, std::span<const std::uint32_t> sites) {
-    RawVector<Box> places;
-    for (const std::uint32_t s : sites) places.push_back(box_of(surface.at(s)));
-    return places;
-  }
-
-  const Surface& surface_;
-  std::vector<std::uint32_t> sites_;
-  ScaledBoxTree tree_;
-};
-
 /// Splits each edge that is not between two facets at the ends of other such edges. (An edge between two facets is
 /// complete as it is.)
 void split_edges(Surface& surface) {
@@ -357,7 +369,7 @@ Tolerances narrowed(const Tolerances& given, double part) {
 
 Tolerances exact_contacts(const Tolerances& given, double part) {
   const double rounding = 1e-12 * given.box;  // of coordinates as doubles
-  return {given.box, rounding, rounding, narrowed(given, part).flat, rounding};
+  return {given.box, rounding, rounding, narrowed(given, part).flat, rounding, true};
 }
 
 void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_number) {
@@ -402,7 +414,8 @@ std::vector<std::uint32_t> select_within(const Surface& surface, const Edge& edg
     const Point3 p = surface.at(s) - a;
     const double along = dot(p, b - a) / length;
     if (along <= 0 || along >= length) continue;
-    if (squared_length(p - (along / length) * (b - a)) <= tolerance * tolerance) found.push_back({along, s});
+    if (squared_length(p - (along / length) * (b - a)) > tolerance * tolerance) continue;
+    if (!surface.tolerances.exact_contacts || are_on_one_line(a, b, surface.at(s))) found.push_back({along, s});
   }
   sort_and_unique(found);
   std::vector<std::uint32_t> within;

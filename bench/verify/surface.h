@@ -13,11 +13,12 @@ namespace ccdt::verify {
 
 /// The tolerances, as lengths.
 struct Tolerances {
-  double box;       ///< largest extent of the input's bounding box
-  double rounding;  ///< of coordinates
-  double place;     ///< two points are in one place
-  double flat;      ///< a patch is flat
-  double touch;     ///< a line lies on a piece
+  double box;                   ///< largest extent of the input's bounding box
+  double rounding;              ///< of coordinates
+  double place;                 ///< two points are in one place
+  double flat;                  ///< a patch is flat
+  double touch;                 ///< a line lies on a piece
+  bool exact_contacts = false;  ///< a vertex is on an edge, and a line on a triangle, only if it is exactly there
 };
 
 Tolerances find_tolerances(const plc::InputPlc& input, double flatness);
