@@ -87,10 +87,12 @@ Sites match_sites(const plc::InputPlc& input, const Topology& topology, const To
   for (const auto& [v, i] : parallel_collect<SamePlace>(vertices.size(), chunk_length, find_same))
     if (sites.of_input[i] == none) sites.of_input[i] = v;
   for (std::size_t i = 0; i < first.size(); ++i) sites.of_input[i] = sites.of_input[first[i]];
-  if (std::ranges::count(sites.of_input, none) == 0) return sites;
-
-  match_nearest(input, topology, tolerances, sites);
-  add_sites(input, tolerances, sites);
+  if (std::ranges::count(sites.of_input, none) > 0) {
+    match_nearest(input, topology, tolerances, sites);
+    add_sites(input, tolerances, sites);
+  }
+  sites.is_given.assign(sites.position.size(), false);
+  for (const std::uint32_t site : sites.of_input) sites.is_given[site] = true;
   return sites;
 }
 

@@ -5,6 +5,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
 #include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
@@ -54,6 +55,7 @@ class EdgeWalk {
   /// \param tolerance  greatest distance of a vertex from the edge
   EdgeWalk(const Topology& topology, const Surface& surface, Edge ends, double tolerance)
       : topology_(topology),
+        surface_(surface),
         ends_(ends),
         origin_(surface.at(ends[0])),
         axis_(surface.at(ends[1]) - surface.at(ends[0])),
@@ -93,7 +95,7 @@ class EdgeWalk {
         const Point3 p = topology_.mesh.vertices[v] - origin_;
         const double along = v == ends_[1] ? length_ : dot(p, axis_);
         if (along <= from || along > length_) continue;
-        if (v != ends_[1] && squared_length(p - along * axis_) > tolerance_ * tolerance_) continue;
+        if (v != ends_[1] && (squared_length(p - along * axis_) > tolerance_ * tolerance_ || is_beside(v))) continue;
         ahead.emplace_back(along, v);
       }
     std::sort(ahead.rbegin(), ahead.rend());
@@ -101,7 +103,14 @@ class EdgeWalk {
     return ahead;
   }
 
+  /// Is the vertex one of the input that is near the edge, but not on it?
+  bool is_beside(std::uint32_t vertex) const {
+    return surface_.tolerances.exact_contacts && surface_.sites.is_given[vertex] &&
+           !are_on_one_line(surface_.at(ends_[0]), surface_.at(ends_[1]), surface_.at(vertex));
+  }
+
   const Topology& topology_;
+  const Surface& surface_;
   Edge ends_;
   Point3 origin_, axis_;
   double length_ = 0, tolerance_;

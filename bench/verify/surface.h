@@ -35,6 +35,7 @@ Tolerances exact_contacts(const Tolerances& given, double part);
 struct Sites {
   std::vector<std::uint32_t> of_input;  ///< site of each input vertex
   std::vector<Point3> position;  ///< of each site, in the input; of a vertex that is not in the input, in the mesh
+  std::vector<bool> is_given;    ///< by site: is a vertex of the input there?
   std::uint32_t mesh_vertices = 0;
 
   bool in_mesh(std::uint32_t site) const { return site < mesh_vertices; }
