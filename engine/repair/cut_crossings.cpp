@@ -179,6 +179,7 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
     counts = cut_in_rounds(cut, options, closeness, progress);
     if (counts.left > 0) continue;
     soup = std::move(cut);
+    counts.welded = closeness == Closeness::welded;
     return counts;
   }
   counts.left = counts.pairs;

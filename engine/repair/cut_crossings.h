@@ -12,6 +12,7 @@ struct CutCounts {
   std::size_t pairs = 0;   ///< of triangles that shared more than corners and edges at first
   std::size_t rounds = 0;  ///< of cuts and welds; one if nothing almost touches
   std::size_t left = 0;    ///< pairs that still meet: all or none
+  bool welded = true;      ///< otherwise, welds did not end, and some things almost touch
 };
 
 struct CutOptions {

@@ -210,6 +210,7 @@ class Repair {
   CutCounts cut_and_unite(bool weld_everywhere) {
     const OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
     const CutCounts cuts = cut_crossings(parts_, {reach_, weld_everywhere}, progress_);
+    is_welded_ = is_welded_ && cuts.welded;
     add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
     check_something_is_enclosed();
     if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input_)) return cuts;
@@ -235,27 +236,34 @@ class Repair {
     }
   }
 
+  enum class Success : std::uint8_t { not_valid, valid, welded };
+
   /// Things that should touch may be farther apart than facets from being flat: as far as a file with few digits
-  /// rounds. So larger welds are tried where smaller ones do not lead to a valid surface.
+  /// rounds. So larger welds are tried where smaller ones do not end, or do not lead to a valid surface. Of equal
+  /// successes the first counts: larger welds change more.
   void repair_with_larger_welds() {
     const auto state = [&] { return std::tie(parts_, lids_, left_open_, farthest_, result_.steps); };
     using State = std::tuple<plc::UncheckedPlc, std::vector<Lid>, std::size_t, double, std::vector<RepairStep>>;
     const State before = state();
-    std::optional<State> first;  // all have failed: larger welds changed more for nothing
+    std::optional<std::pair<Success, State>> best;
     try {
       for (const double reach : {tolerance(), limits_.weld / 8, limits_.weld / 2}) {
         if (reach < reach_) continue;
         if (reach_ > 0) state() = before;
         reach_ = reach;
-        if (is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0) return;
-        if (!first) first = state();
+        is_welded_ = true;
+        const bool is_valid = is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0;
+        const Success success = !is_valid ? Success::not_valid : is_welded_ ? Success::welded : Success::valid;
+        if (success == Success::welded) return;
+        if (!best || best->first < success) best = {success, state()};
         if (is_given_open_) break;
       }
     } catch (const OutOfTime&) {
-      if (first) state() = *first;
-      throw;
+      if (best) state() = best->second;
+      if (!best || best->first == Success::not_valid) throw;
+      return;
     }
-    state() = *first;
+    state() = best->second;
   }
 
   /// Closes the surface, cuts it, and turns it outward. What fills a hole can cross other facets, and cuts can leave
@@ -311,6 +319,7 @@ class Repair {
   const plc::UncheckedPlc given_;
   Limits limits_;
   double reach_ = 0;            // of welds
+  bool is_welded_ = true;       // what almost touched
   bool is_given_open_ = false;  // has holes before anything is cut that must stay open
   std::vector<Lid> lids_;
   std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last
