@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "engine/io/bridge_walls.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/io/text_scanner.h"
@@ -176,6 +177,7 @@ plc::InputPlc read_plc(const std::filesystem::path& file) {
   const PlcFormat* const contents = shown.empty() ? format : std::ranges::find(plc_formats, shown, &PlcFormat::ending);
   plc::InputPlc plc = contents->read(bytes);
   plc.name = file.string();
+  drop_bridge_walls(plc);
   if (contents != format)
     plc.notes.push_back("the file is named '" + std::string(format->ending) + "' but contains " +
                         std::string(contents->name) + ", and was read as such");

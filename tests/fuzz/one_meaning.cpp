@@ -1,6 +1,7 @@
 #include "tests/fuzz/one_meaning.h"
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "bench/verify/verify.h"
@@ -16,6 +17,17 @@ namespace {
 
 void demand(bool holds, const std::string& what) {
   if (!holds) throw std::runtime_error(what);
+}
+
+/// The words of the exception that a function throws; empty if none.
+template <class Function>
+std::string what_is_thrown(const Function& function) {
+  try {
+    function();
+    return {};
+  } catch (const std::exception& error) {
+    return error.what();
+  }
 }
 
 MeshOptions bare() {
@@ -49,6 +61,15 @@ repair::Diagnosis check(const plc::InputPlc& input, const std::string& what) {
   return diagnosis;
 }
 
+/// Of a valid copy, which another repair must not change.
+/// \return  its volume, if it is valid
+std::optional<double> check_copy(const plc::InputPlc& copy) {
+  const repair::Diagnosis diagnosis = check(copy, "copy");
+  if (!diagnosis.is_valid()) return {};
+  demand(repair::repair_input(copy).steps.empty(), "another repair changes the copy");
+  return diagnosis.volume;
+}
+
 void find(const plc::InputPlc& input, Meaning& meaning) {
   const repair::Diagnosis before = check(input, "input");
   meaning.is_valid = before.is_valid();
@@ -59,26 +80,22 @@ void find(const plc::InputPlc& input, Meaning& meaning) {
     return demand(!meaning.is_valid, "valid, but not repaired");  // nothing is enclosed
   }
   meaning.is_refused = !repaired.refused.empty();
-  if (meaning.is_refused) return demand(!meaning.is_valid, "valid, but its repair is refused");
-  const repair::Diagnosis after = check(repaired.input, "copy");
-  meaning.is_copy_valid = after.is_valid();
-  if (!meaning.is_copy_valid) return demand(!meaning.is_valid, "valid, but its copy is not");
-  if (meaning.is_valid)
-    demand(std::fabs(after.volume - before.volume) <= 1e-6 * std::fabs(before.volume), "the repair changes the volume");
-  const repair::Repaired again = repair::repair_input(repaired.input);
-  demand(again.steps.empty(), "another repair changes the copy");
+  demand(!meaning.is_valid || !meaning.is_refused, "valid, but its repair is refused");
+  if (meaning.is_refused) return;
+  if (meaning.is_valid) {
+    const std::optional<double> volume = check_copy(repaired.input);
+    demand(volume && std::fabs(*volume - before.volume) <= 1e-6 * before.volume, "the repair changes the volume");
+  } else {
+    meaning.about_copy = what_is_thrown([&] { meaning.is_copy_valid = check_copy(repaired.input).has_value(); });
+  }
 }
 
 }  // namespace
 
 Meaning find_meaning(const plc::InputPlc& input) {
   Meaning meaning;
-  try {
-    const auto triangulated = plc::triangulate_warped_facets(input);
-    find(triangulated ? *triangulated : input, meaning);
-  } catch (const std::exception& error) {
-    meaning.disagreement = error.what();
-  }
+  const auto triangulated = plc::triangulate_warped_facets(input);
+  meaning.disagreement = what_is_thrown([&] { find(triangulated ? *triangulated : input, meaning); });
   return meaning;
 }
 

@@ -11,7 +11,8 @@ struct Meaning {
   bool is_valid = false;          ///< for the check
   bool is_copy_valid = false;     ///< of the repaired copy, for the check
   bool is_refused = false;        ///< the repair wrote no copy, because of its limits
-  std::string disagreement = {};  ///< empty if they agree
+  std::string disagreement = {};  ///< about the input; empty if they agree
+  std::string about_copy = {};    ///< about the repaired copy of an input that is not valid
 };
 
 /// Do all four mean the same? An input that the check calls valid is meshed, the mesh is right, and the repair leaves

@@ -146,5 +146,42 @@ TEST(MalformedFiles, MeditSectionsDoNotOverlap) {
   io_test::expect_refused("a.meshb", overlapping_sections(100), {});
 }
 
+/// The outline of a frame, with a bridge from its outer square to its hole; the corners of the bridge are there twice.
+const std::vector<std::array<int, 2>> frame = {{0, 0}, {3, 0}, {3, 2}, {2, 2}, {2, 1}, {1, 1},
+                                               {1, 2}, {2, 2}, {3, 2}, {3, 3}, {0, 3}};
+
+/// An extruded outline, as a file in OFF.
+std::string extruded(const std::vector<std::array<int, 2>>& outline) {
+  const std::size_t n = outline.size();
+  std::string vertices, bottom = std::to_string(n), top = bottom, walls;
+  for (const int z : {0, 1})
+    for (const auto& [x, y] : outline)
+      vertices += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    bottom += " " + std::to_string(n - 1 - i);
+    top += " " + std::to_string(n + i);
+    walls += "4 " + std::to_string(i) + " " + std::to_string(next) + " " + std::to_string(n + next) + " " +
+             std::to_string(n + i) + "\n";
+  }
+  return "OFF " + std::to_string(2 * n) + " " + std::to_string(n + 2) + " 0\n" + vertices + bottom + "\n" + top + "\n" +
+         walls;
+}
+
+TEST(UnusualFiles, WallsOnBothSidesOfABridgeBoundNothing) {
+  const plc::InputPlc plc = plc_of("a.off", extruded(frame));
+  EXPECT_EQ(plc.polygon_facets.size(), frame.size());
+  EXPECT_EQ(plc.notes.size(), 1u);
+  EXPECT_TRUE(std::ranges::none_of(plc.polygon_facets, [](const auto& f) { return f.number == 4 || f.number == 9; }));
+}
+
+TEST(UnusualFiles, WallsBetweenSolidsThatTouchStay) {
+  const plc::InputPlc plc = plc_of("a.obj",
+                                   "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                                   "f 1 2 6 5\nf 5 6 2 1\n");
+  EXPECT_EQ(plc.polygon_facets.size(), 2u);
+  EXPECT_TRUE(plc.notes.empty());
+}
+
 }  // namespace
 }  // namespace ccdt
