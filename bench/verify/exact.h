@@ -20,6 +20,10 @@ int side_of_sphere(const Point3& a, const Point3& b, const Point3& c, const Poin
 /// Are c and d, which are in one plane with a and b, on the same side of the line ab?
 bool are_on_one_side(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
 
+/// Which of two triangles does the segment pq cross first? -1: `a`, +1: `b`, 0: both in one point. The segment is not
+/// in the plane of either.
+int compare_along(const Point3& p, const Point3& q, const std::array<Point3, 3>& a, const std::array<Point3, 3>& b);
+
 /// Do the two have a common point? Triangles and segments that are not degenerate.
 bool do_meet(const std::array<Point3, 3>& triangle, const std::array<Point3, 3>& other);
 bool do_meet(const std::array<Point3, 2>& segment, const std::array<Point3, 3>& triangle);

@@ -206,6 +206,34 @@ std::vector<std::uint32_t> depth_by_shells(const Regions& regions, const Shells&
   return depth;
 }
 
+std::array<Point3, 3> corners_of(const Surface& surface, std::uint32_t triangle) {
+  const auto edges = surface.edges_of(triangle);
+  return {surface.at(edges[0][0]), surface.at(edges[1][0]), surface.at(edges[2][0])};
+}
+
+/// Sorts hits by their places on a ray: exactly, if they are triangles near each other.
+/// \return  false if two are at the same place
+bool sort_along(const Surface& surface, const Point3& start, const Point3& end, std::vector<Hit>& hits) {
+  std::ranges::sort(hits, {}, &Hit::along);
+  for (auto first = hits.begin(); first != hits.end();) {
+    const auto is_far = [](const Hit& a, const Hit& b) { return b.along - a.along > 1e-6; };
+    auto last = std::adjacent_find(first, hits.end(), is_far);
+    if (last != hits.end()) ++last;
+    const auto compare = [&](const Hit& a, const Hit& b) {
+      return compare_along(start, end, corners_of(surface, a.piece), corners_of(surface, b.piece));
+    };
+    const bool are_triangles = std::all_of(first, last, [&](const Hit& hit) { return surface.is_triangle(hit.piece); });
+    if (are_triangles && last - first > 1)
+      std::sort(first, last, [&](const Hit& a, const Hit& b) { return compare(a, b) < 0; });
+    const auto are_equal = [&](const Hit& a, const Hit& b) {
+      return are_triangles ? compare(a, b) == 0 : b.along - a.along < 1e-12;
+    };
+    if (std::adjacent_find(first, last, are_equal) != last) return false;
+    first = last;
+  }
+  return true;
+}
+
 void place_seeds(const plc::InputPlc& input, const Surface& surface, const RayShooter& rays, Regions& regions) {
   for (const auto& region : input.regions)
     for (const std::uint32_t c : regions_at(surface, regions, rays, region.seed))
@@ -239,10 +267,7 @@ std::optional<std::vector<Hit>> RayShooter::shoot(const Point3& start, int attem
     hits.push_back({p, dot(n, surface_.origin(p) - start) / rise, crossing == Crossing::down});
   });
   if (grazes) return std::nullopt;
-  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) { return a.along < b.along; });
-  for (std::size_t i = 1; i < hits.size(); ++i)
-    if (hits[i].along - hits[i - 1].along < 1e-12) return std::nullopt;
-  return hits;
+  return sort_along(surface_, start, end, hits) ? std::optional(hits) : std::nullopt;
 }
 
 std::vector<std::uint32_t> RayShooter::pieces_near(const Point3& point) const {

@@ -368,8 +368,8 @@ Tolerances narrowed(const Tolerances& given, double part) {
 }
 
 Tolerances exact_contacts(const Tolerances& given, double part) {
-  const double rounding = 1e-12 * given.box;  // of coordinates as doubles
-  return {given.box, rounding, rounding, narrowed(given, part).flat, rounding, true};
+  const double rounding = (part > 0 ? 1e-12 : 1e-15) * given.box;  // of coordinates as doubles
+  return {given.box, rounding, rounding, part > 0 ? narrowed(given, part).flat : rounding, rounding, true};
 }
 
 void Pieces::add(std::span<const Edge> edges, int its_marker, std::uint32_t its_number) {

@@ -27,7 +27,8 @@ Tolerances find_tolerances(const plc::InputPlc& input, double flatness);
 Tolerances narrowed(const Tolerances& given, double part);
 
 /// The tolerances for rounded coordinates (`put_on_grid`): equal positions and contacts are exact up to the rounding of
-/// doubles, and planes have a part of the given tolerance.
+/// new vertices, and planes have a part of the given tolerance. If the part is 0, everything is exact up to the
+/// rounding of computations.
 Tolerances exact_contacts(const Tolerances& given, double part);
 
 /// The positions of the input's vertices, identified with vertices of the mesh, so that input and mesh can be compared

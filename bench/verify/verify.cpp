@@ -319,9 +319,6 @@ bool holds_up_to(const char* name, const Verification& result) {
   return false;
 }
 
-/// The smallest part of the given tolerance that is tried.
-constexpr double least_part = 1e-3;
-
 /// If the mesh is not right at the given tolerances, smaller ones are tried as well. Facets that are right at one
 /// tolerance are right at all greater ones. But where facets are as narrow as the tolerance, they match the mesh in
 /// more than one way. Where parts are as close together as rounding moves coordinates, the mesh is compared with the
@@ -335,18 +332,19 @@ void check_at_tolerances(const plc::InputPlc& input, const Topology& topology, c
   check_against_input(input, topology, given, options, progress, result);
   if (result.ok() || options.flatness <= 1e-11) return;
   const bool lines_hold = holds_up_to(segments_check, result);
-  const auto try_parts = [&](const plc::InputPlc& its_input, const Topology& its_topology, double most,
-                             const auto& tolerances) {
-    for (double part = most; !result.ok() && part > 0.5 * least_part; part /= 10) {
+  const auto try_parts = [&](const plc::InputPlc& its_input, const Topology& its_topology,
+                             std::initializer_list<double> parts, const auto& tolerances) {
+    for (const double part : parts) {
+      if (result.ok()) return;
       Verification closer = before;
-      check_against_input(its_input, its_topology, tolerances(part), options, progress, closer);
+      check_against_input(its_input, its_topology, tolerances(given, part), options, progress, closer);
       if (closer.ok()) result = std::move(closer);
     }
   };
   const InputAndMesh rounded = put_on_grid(input, topology.mesh);
   if (check_orientation(rounded.mesh, progress).failed == 0)
-    try_parts(rounded.input, find_topology(rounded.mesh), 1, [&](double part) { return exact_contacts(given, part); });
-  if (lines_hold) try_parts(input, topology, 0.1, [&](double part) { return narrowed(given, part); });
+    try_parts(rounded.input, find_topology(rounded.mesh), {1, 0.1, 0.01, 0.001, 0}, exact_contacts);
+  if (lines_hold) try_parts(input, topology, {0.1, 0.01, 0.001}, narrowed);
 }
 
 /// The boundary of the mesh as an input.

@@ -25,6 +25,10 @@ double determinant(const Point3& a, const Point3& b, const Point3& c) {
   return dot(a, cross(b, c));
 }
 
+double size_of(const Point3& a) {
+  return std::fabs(a.x) + std::fabs(a.y) + std::fabs(a.z);
+}
+
 /// A sum of numbers, and an upper bound on its error.
 struct RoundedSum {
   double sum, rounding;
@@ -38,12 +42,12 @@ RoundedSum volume_within(const plc::Plc& plc, const facets::FacetMesh& facets, s
     const int outward = (plc.regions[facet.below].inside ? 1 : 0) - (plc.regions[facet.above].inside ? 1 : 0);
     const auto& t = facets.triangles[i];
     if (outward == 0) continue;
-    // Not a determinant: its products are of the size of the box, however small the triangle is.
-    const Point3 twice_area = area_vector({points[t[0]], points[t[1]], points[t[2]]});
-    volume += outward * dot(points[t[0]], twice_area);
-    parts += length(points[t[0]]) * length(twice_area);
+    const Point3 &a = points[t[0]], b = points[t[1]] - a, c = points[t[2]] - a;
+    // Not a determinant of the corners: its products are of the size of the box, however small the triangle is.
+    volume += outward * determinant(a, b, c);
+    parts += size_of(a) * size_of(b) * size_of(c);
   }
-  return {volume, 1e-13 * parts};
+  return {volume, 1e-14 * parts};
 }
 
 FaceKey key_of(const std::array<VertexId, 3>& t) {
@@ -280,18 +284,20 @@ void drop_foreign_edges(const plc::Plc& plc, const protection::SegmentChains& ch
 
 void check_volume(const plc::Plc& plc, const facets::FacetMesh& facets, std::span<const Point3> points,
                   const TetMesh& mesh) {
-  const auto volumes = parallel_chunks(mesh.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end) {
-    double volume = 0;
+  const auto parts = parallel_chunks(mesh.tetrahedra.size(), chunk_length, [&](std::size_t i, std::size_t end) {
+    RoundedSum part{};
     for (; i < end; ++i) {
       const auto& t = mesh.tetrahedra[i];
-      const Point3& a = points[t[0]];
-      volume += determinant(points[t[1]] - a, points[t[2]] - a, points[t[3]] - a);
+      const Point3 a = points[t[1]] - points[t[0]], b = points[t[2]] - points[t[0]], c = points[t[3]] - points[t[0]];
+      part.sum += determinant(a, b, c);
+      part.rounding += size_of(a) * size_of(b) * size_of(c);  // much larger than the volume of a needle
     }
-    return volume;
+    return part;
   });
-  const double filled = std::accumulate(volumes.begin(), volumes.end(), 0.0);
+  RoundedSum filled{};
+  for (const auto& [sum, rounding] : parts) filled = {filled.sum + sum, filled.rounding + 1e-15 * rounding};
   const auto [wanted, rounding] = volume_within(plc, facets, points);
-  if (!(std::fabs(filled - wanted) <= 1e-7 * std::fabs(wanted) + rounding))
+  if (!(std::fabs(filled.sum - wanted) <= 1e-7 * std::fabs(wanted) + rounding + filled.rounding))
     throw front::stuck_near("the tetrahedra do not fill the domain", plc, {});
 }
 
