@@ -10,7 +10,9 @@ namespace ccdt::baselines {
 /// functions that visit a document call themselves once per level.
 inline constexpr int most_nested = 200;
 
-/// Parses untrusted text.
+/// Parses untrusted text. The time and the memory grow with its length. Of members with equal names, the last one
+/// counts.
+///
 /// \throw nlohmann::ordered_json::parse_error  it is not JSON, or is nested too deep; carries the byte
 nlohmann::ordered_json parse_json(std::string_view text);
 

@@ -55,6 +55,7 @@ bool stop_requested() {
 
 void clean_up_on_signals() {
   handle_by(on_end);
+  std::signal(SIGXFSZ, SIG_IGN);  // writing more than the system allows is then an error
 }
 
 StopSignals::StopSignals() : before_(handle_by(on_stop)) {}

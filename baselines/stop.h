@@ -21,6 +21,8 @@ bool stop_requested();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP remove all unfinished files (`io::remove_unfinished_files`) and end this
 /// process with the usual exit code of shells: 128 plus the number of the signal. After `nohup`, SIGHUP stays ignored.
+/// Where a file would get larger than the system allows, writing fails, as on a full disk, instead of ending the
+/// process.
 void clean_up_on_signals();
 
 /// While the object lives, these signals do not end this process but ask it to stop (`request_stop`). Objects may be

@@ -6,6 +6,7 @@
 #include "bench/experiments/registry.h"
 #include "bench/results/sweep_result.h"
 #include "engine/base/errors.h"
+#include "engine/io/files.h"
 
 namespace ccdt::reports {
 namespace {
@@ -186,6 +187,7 @@ static void to_json(bench::Json& json, const RunLine& run) {
 /// @}
 
 Report read_report(const std::filesystem::path& folder, std::span<const ReportChart> charts) {
+  io::check_links_stay_within(folder);
   Report report;
   report.title = "Tetrahedral meshing by conforming constrained Delaunay tetrahedralization: measurements";
   add_experiments(folder, charts, report);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
+#include "bench/results/csv_text.h"
 #include "bench/run/json.h"
 #include "bench/run/median_interval.h"
 #include "bench/run/numbers.h"
@@ -41,18 +43,28 @@ std::string aligned(const std::string& text, std::size_t column, std::size_t to)
   return column == 0 ? text + spaces : spaces + text;
 }
 
-/// For a cell of a Markdown table, which a bar would end; a line feed would end the row.
+bool is_line_end(char c) {
+  return c == '\n' || c == '\r';
+}
+
+/// For a cell of a Markdown table, which a bar would end.
 std::string in_cell(const std::string& markdown) {
   std::string safe;
-  for (const char c : markdown) safe += c == '|' ? "\\|" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+  for (const char c : markdown) safe += c == '|' ? "\\|" : std::string(1, c);
   return safe;
 }
 
-/// Texts of our own have code in backticks; what comes from files must not open HTML.
-std::string without_html(const std::string& text) {
+/// A text with code in backticks, such as those of our own.
+std::string markdown_prose(const std::string& text) {
   std::string safe;
-  for (const char c : text) safe += c == '<' ? "&lt;" : std::string(1, c);
-  return safe;
+  std::size_t at = 0;
+  while (true) {
+    const std::size_t begin = text.find('`', at);
+    const std::size_t end = begin == std::string::npos ? begin : text.find('`', begin + 1);
+    if (end == std::string::npos) return safe + markdown_text(text.substr(at));
+    safe += markdown_text(text.substr(at, begin - at)) + markdown_code(text.substr(begin + 1, end - begin - 1));
+    at = end + 1;
+  }
 }
 
 /// Whole numbers with separators, others with four digits.
@@ -80,13 +92,6 @@ std::string all_digits(double value) {
   return std::isfinite(value) ? digits(value) : "";
 }
 
-std::string csv_quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 bool has_estimates(const ResultTable& table, std::size_t column) {
   return std::ranges::any_of(
       table.rows, [&](const ResultRow& row) { return std::holds_alternative<bench::Estimate>(row.cells[column]); });
@@ -97,10 +102,13 @@ std::string csv_cell(const Cell& cell, bool as_estimate) {
     return all_digits(e->value) + "," + all_digits(e->low) + "," + all_digits(e->high);
   std::string text;
   if (const auto* number = std::get_if<double>(&cell)) text = all_digits(*number);
-  if (const auto* words = std::get_if<std::string>(&cell)) text = csv_quoted(*words);
+  if (const auto* words = std::get_if<std::string>(&cell)) text = results::csv_text(*words);
   return as_estimate ? text + ",," : text;
 }
 
+/// No character acts as a command. At the beginning of a row, a bracket or an asterisk would be an argument of the end
+/// of the row before. Line feeds could make paragraphs, which captions must not have, and other control characters are
+/// errors.
 std::string latex_text(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -110,6 +118,10 @@ std::string latex_text(const std::string& text) {
       safe += std::string("\\") + c + "{}";
     else if (std::string("&%$#_{}").find(c) != std::string::npos)
       safe += std::string("\\") + c;
+    else if (safe.empty() && (c == '[' || c == '*'))
+      safe += std::string("{") + c + "}";
+    else if (std::iscntrl(static_cast<unsigned char>(c)) != 0)
+      safe += ' ';
     else
       safe += c;
   }
@@ -125,7 +137,7 @@ std::string list(const std::string& title, const char* bullet, const std::vector
 }
 
 std::string markdown_list(const std::string& title, std::vector<std::string> lines) {
-  std::ranges::transform(lines, lines.begin(), without_html);
+  std::ranges::transform(lines, lines.begin(), markdown_prose);
   return list("## " + title + "\n", "- ", lines);
 }
 
@@ -282,21 +294,31 @@ std::string to_terminal(const TextTable& table) {
 }
 
 std::string markdown_text(const std::string& text) {
+  const auto is_within_word = [&](std::size_t i) {
+    const auto is_letter = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
+    return i > 0 && i + 1 < text.size() && is_letter(text[i - 1]) && is_letter(text[i + 1]);
+  };
   std::string safe;
-  for (const char c : text) {
-    if (std::string_view("\\`*[]").find(c) != std::string_view::npos) safe += '\\';
-    safe += c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool acts = std::string_view("\\`*[]~").find(c) != std::string_view::npos ||
+                      (c == '_' && !is_within_word(i)) ||
+                      (i == 0 && std::string_view("#+->=").find(c) != std::string_view::npos);
+    if (acts) safe += '\\';
+    safe += c == '<' ? "&lt;" : c == '&' ? "&amp;" : is_line_end(c) ? " " : std::string(1, c);
   }
   return safe;
 }
 
 std::string markdown_code(const std::string& text) {
   if (text.empty()) return "";
-  std::size_t longest = 0, run = 0;  // of backticks
-  for (const char c : text) longest = std::max(longest, run = c == '`' ? run + 1 : 0);
-  if (longest == 0) return "`" + text + "`";
+  std::string line = text;
+  std::ranges::replace_if(line, is_line_end, ' ');  // an empty line would end the code
+  std::size_t longest = 0, run = 0;                 // of backticks
+  for (const char c : line) longest = std::max(longest, run = c == '`' ? run + 1 : 0);
+  if (longest == 0) return "`" + line + "`";
   const std::string fence(longest + 1, '`');
-  return fence + " " + text + " " + fence;
+  return fence + " " + line + " " + fence;
 }
 
 std::string to_markdown(const TextTable& table, const std::set<std::size_t>& code_columns) {
@@ -337,8 +359,9 @@ std::string to_csv(const ResultTable& table) {
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
     const std::string& name = table.columns[c].name;
     is_estimate.push_back(has_estimates(table, c));
-    text += (c == 0 ? "" : ",") + name;
-    if (is_estimate[c]) text.append(",").append(name).append("_low,").append(name).append("_high");
+    text += (c == 0 ? "" : ",") + results::csv_text(name);
+    for (const char* bound : {"_low", "_high"})
+      if (is_estimate[c]) text += "," + results::csv_text(name + bound);
   }
   text += "\r\n";
   for (const ResultRow& row : table.rows) {

@@ -155,7 +155,8 @@ WrittenReport write_report(const Report& report, const std::filesystem::path& fo
   // Nobody reads millions of lines, and writing and parsing them takes long.
   write_text(text.size() > largest_plain_report ? text : bench::to_text(json), folder / "report.json");
   write_text(bench::to_text(claims_json(report)), folder / "claims.json");
-  auto figures = std::async(std::launch::async, draw_figures, folder, share);  // which takes as long as everything else
+  // Drawing takes as long as everything else. If no thread can be started, it happens at the end.
+  auto figures = std::async(std::launch::async | std::launch::deferred, draw_figures, folder, share);
   for (const ReportSection& section : report.sections) write_tables(section, folder);
   for (const auto& [name, content] : report.more_files) write_text(content, folder / name);
   const auto page = share / "page.html";

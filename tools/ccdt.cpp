@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", "ccdt " + std::string(ccdt::engine_version), "print the version and exit");
     app.set_help_flag("-h,--help", "print this help and exit");
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App* failed, const CLI::Error& error) { return usage_in_words(*failed, error); });
+    app.failure_message(
+        [](const CLI::App* failed, const CLI::Error& error) { return printable(usage_in_words(*failed, error)); });
     app.footer(
         "Exit codes: 0 done; 1 no valid mesh was found, a result failed a check, a gate failed, or an internal error\n"
         "occurred; 2 wrong usage; 3 invalid input, a file cannot be read or written, or results cannot be compared;\n"

@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "engine/base/parallel.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/repair/find_faults.h"
@@ -12,6 +11,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/options.h"
+#include "tools/part_of_result.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
 
@@ -49,10 +49,14 @@ reports::CheckReport::Copy repaired_copy(const CheckCommand& command, const plc:
   if (copy.refused.empty()) {
     copy.output = command.output;
     io::write_plc(repaired.input, command.output);
+  }
+  PartOfResult written(copy.output);
+  if (!copy.output.empty()) {
     // The format may round coordinates, so the file is checked, not what was written into it.
     repaired.input = io::read_plc(command.output);
   }
   copy.diagnosis = repair::find_faults(repaired.input, command.options.flatness, progress);
+  written.keep();
   return copy;
 }
 
@@ -75,7 +79,7 @@ ExitCode run(const CheckCommand& command) {
   keep_freed_memory();
   check_files(command);
   reports::CheckReport report{.input = command.input};
-  with_progress(command.input, [&](const Progress& progress) {
+  with_progress(command.input, command.threads, [&](const Progress& progress) {
     const plc::InputPlc input = io::read_plc(command.input);
     report.diagnosis = repair::find_faults(input, command.options.flatness, progress);
     if (command.repair) report.copy = repaired_copy(command, input, progress);
@@ -139,7 +143,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "  ccdt check part.stl --repair --gap 0.01 -o repaired.off && ccdt mesh repaired.off -o part.vtu\n"
       "Example: fill holes with lids that reach up to 5 units from their rims\n"
       "  ccdt check part.stl --repair --limit 5 -o repaired.off\n");
-  verb->callback([command, &exit_code] { exit_code = with_threads(command->threads, [&] { return run(*command); }); });
+  verb->callback([command, &exit_code] { exit_code = run(*command); });
 }
 
 }  // namespace ccdt::tools

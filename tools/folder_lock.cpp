@@ -31,6 +31,7 @@ std::string holder(int file) {
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder) {
+  io::check_links_stay_within(folder);
   const std::string name = (folder / "lock").string();
   file_ = open(name.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, everyone_may_read);
   if (file_ < 0 && errno == ELOOP)

@@ -15,6 +15,7 @@
 #include "reports/verdict_text.h"
 #include "tools/commands.h"
 #include "tools/error_words.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/terminal.h"
 
@@ -126,9 +127,13 @@ void append(const std::filesystem::path& file, const std::string& text) {
     output.commit();
     return;
   }
+  const auto size = std::filesystem::file_size(file);
   std::ofstream output(file, std::ios::app | std::ios::binary);
   output << text << std::flush;
-  if (!output) throw OutputError("cannot be written to", io::place_in(file.string()), "choose another file");
+  if (output) return;
+  std::error_code ignored;
+  std::filesystem::resize_file(file, size, ignored);  // without a part of the text
+  throw OutputError("cannot be written to", io::place_in(file.string()), "choose another file");
 }
 
 /// A baseline that holds no performance figure would gate nothing.
@@ -216,7 +221,8 @@ ExitCode run_gate(const GateCommand& command) {
 ExitCode run(const GateCommand& command) {
   const baselines::StopSignals signals;
   try {
-    return run_gate(command);
+    const std::string& what = command.words.empty() ? command.folder : command.words.front();
+    return with_stage_of_limits(what, "gate", [&] { return run_gate(command); });
   } catch (const baselines::Stopped&) {
     throw;
   } catch (const CLI::Error&) {

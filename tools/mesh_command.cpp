@@ -16,7 +16,6 @@
 #include "bench/run/surface_limit.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
-#include "engine/base/parallel.h"
 #include "engine/base/stopwatch.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
@@ -31,6 +30,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/options.h"
+#include "tools/part_of_result.h"
 #include "tools/progress_bar.h"
 #include "tools/sweep_command.h"
 #include "tools/terminal.h"
@@ -172,7 +172,6 @@ InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& optio
                            bench::with_separators(input.facet_count()) + " facets");
     options.surface = SurfaceRule::keep;
   }
-  if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
   const bool others_fill = command.mesher != "ccdt" && options.lattice != Lattice::none;
   if (others_fill && options.edge_length > 0) plc::check_edges_of_surface(input, options.edge_length);
   return input;
@@ -261,7 +260,10 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);
+  if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
+  PartOfResult surface(command.surface_output);
   io::write_tet_mesh(run.result.mesh, command.output);
+  surface.keep();
 }
 
 void record_failure(const MeshCommand& command, bench::RunRecord& record, const std::exception& error) {
@@ -289,9 +291,8 @@ void run(MeshCommand command) {
   if (command.options.threads == 0 && is_small(command)) command.options.threads = 1;
   bench::RunRecord record;
   try {
-    with_threads(command.options.threads, [&] {
-      with_progress(command.input, [&](const Progress& progress) { mesh_file(command, record, progress); });
-    });
+    with_progress(command.input, command.options.threads,
+                  [&](const Progress& progress) { mesh_file(command, record, progress); });
   } catch (const baselines::Stopped&) {
     throw;  // the report stays as it was left for this end
   } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include "engine/io/plc_files.h"
 #include "models/solids.h"
 #include "tools/commands.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/terminal.h"
 
@@ -27,10 +28,12 @@ std::string model_footer() {
 
 void run(const ModelCommand& command) {
   check_can_be_written(command.output);
-  const plc::InputPlc plc = models::make_solid(command.name, command.edge_length);
-  io::write_plc(plc, command.output);
-  print(command.output + ": " + bench::with_separators(plc.vertices.size()) + " vertices, " +
-        bench::with_separators(plc.facet_count()) + " facets\n");
+  with_stage_of_limits(command.output, "model", [&] {
+    const plc::InputPlc plc = models::make_solid(command.name, command.edge_length);
+    io::write_plc(plc, command.output);
+    print(command.output + ": " + bench::with_separators(plc.vertices.size()) + " vertices, " +
+          bench::with_separators(plc.facet_count()) + " facets\n");
+  });
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <chrono>
-#include <new>
 #include <string>
 #include <string_view>
 
-#include "engine/base/errors.h"
+#include "engine/base/parallel.h"
 #include "engine/base/progress.h"
+#include "tools/limit_errors.h"
 
 namespace ccdt::tools {
 
@@ -35,23 +35,19 @@ class ProgressBar {
   Clock::time_point begin_, last_;
 };
 
-/// Calls `run(progress)`, and shows the progress in a bar.
+/// Calls `run(progress)` on so many threads (0: all cores), and shows the progress in a bar. Errors of limits name the
+/// stage and the file.
 /// \param file  what is worked on
-/// \throw MemoryError  in place of `std::bad_alloc`; names the stage and the file
+/// \throw ...   see `with_stage_of_limits`
 template <class Run>
-auto with_progress(const std::string& file, const Run& run) {
+auto with_progress(const std::string& file, unsigned threads, const Run& run) {
   ProgressBar bar;
   std::string stage = "read";
   const Progress progress = [&, draw = bar.progress()](std::string_view now, std::uint64_t done, std::uint64_t total) {
     if (now != stage) stage = now;
     report(draw, now, done, total);
   };
-  try {
-    return run(progress);
-  } catch (const std::bad_alloc&) {
-    throw MemoryError("out of memory in the stage '" + stage + "'", {.file = file},
-                      "allow more memory, use a machine with more memory, a coarser model or a larger --edge-length");
-  }
+  return with_stage_of_limits(file, stage, [&] { return with_threads(threads, [&] { return run(progress); }); });
 }
 
 /// The line itself, no longer than `columns` characters.

@@ -7,6 +7,7 @@
 #include "reports/report.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/terminal.h"
 
@@ -118,7 +119,7 @@ void add_report_command(CLI::App& app, ExitCode& exit_code) {
   verb->callback([command, &exit_code] {
     if (command->folders.size() == 1 && !command->output.empty())
       throw CLI::ValidationError("--output", "use it with two folders only: a report is written to its own folder");
-    run(*command);
+    with_stage_of_limits(command->folders.back(), "report", [&] { run(*command); });
     exit_code = done;
   });
 }

@@ -17,6 +17,7 @@
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/folder_lock.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
@@ -278,7 +279,9 @@ void add_reproduce_command(CLI::App& app, ExitCode& exit_code) {
   add_limits(*verb, *command);
   add_what_to_keep(*verb, *command);
   verb->footer(reproduce_footer());
-  verb->callback([command, &exit_code] { exit_code = run_until_stopped(*command); });
+  verb->callback([command, &exit_code] {
+    exit_code = with_stage_of_limits(command->folder, "reproduce", [&] { return run_until_stopped(*command); });
+  });
 }
 
 }  // namespace ccdt::tools

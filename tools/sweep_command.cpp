@@ -19,6 +19,7 @@
 #include "tools/cluster_command.h"
 #include "tools/commands.h"
 #include "tools/folder_lock.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
@@ -72,6 +73,7 @@ std::vector<bench::MeasuredCase> identify(bench::Runner& runner, std::vector<swe
     const bool is_there = std::filesystem::exists(cases[i].input.file);  // a model may not have been written yet
     if (is_there && !known.insert(loaded[i].id).second) continue;
     cases[i].id = loaded[i].id;
+    cases[i].older_ids = loaded[i].older_ids;
     different.push_back(std::move(cases[i]));
     measured.push_back(std::move(loaded[i]));
   }
@@ -286,7 +288,8 @@ void add_sweep_command(CLI::App& app, ExitCode& exit_code) {
   verb->callback([command, &exit_code] {
     const bool names_folder = command->cluster.chunk >= 0;  // the first argument is a folder, not a spec
     if (command->folder.empty() && !names_folder) throw CLI::RequiredError("-o,--output");
-    exit_code = run(*command);
+    exit_code =
+        with_stage_of_limits(names_folder ? command->spec : command->folder, "sweep", [&] { return run(*command); });
   });
 }
 

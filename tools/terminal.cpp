@@ -2,7 +2,10 @@
 
 #include <unistd.h>
 
+#include <array>
+#include <bit>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
@@ -32,12 +35,35 @@ const char* code_of(Tone tone) {
   return "\033[33m";
 }
 
-/// The length in bytes of a control character of Unicode's first or second set, other than a line feed or tab, at the
-/// start of a text; 0: there is none.
-std::size_t control_length(std::string_view text) {
+/// A character in UTF-8.
+struct Character {
+  std::uint32_t code = 0;
+  std::size_t length = 1;  ///< in bytes
+  bool is_valid = false;
+};
+
+/// The first character of a text. A byte that begins none is one that is not valid.
+Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  if (byte(0) < 32 || byte(0) == 127) return byte(0) == '\n' || byte(0) == '\t' ? 0 : 1;
-  return byte(0) == 0xC2 && text.size() > 1 && (byte(1) & 0xE0) == 0x80 ? 2 : 0;
+  const auto ones = static_cast<std::size_t>(std::countl_one(byte(0)));
+  if (ones == 0) return {byte(0), 1, true};
+  if (ones == 1 || ones > 4 || text.size() < ones) return {byte(0)};
+  Character character{byte(0) & (0x7Fu >> ones), ones, true};
+  for (std::size_t i = 1; i < ones; ++i) {
+    if ((byte(i) & 0xC0) != 0x80) return {byte(0)};
+    character.code = character.code << 6 | (byte(i) & 0x3F);
+  }
+  static constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};  // else it is too long
+  return character.code >= least[ones] ? character : Character{byte(0)};
+}
+
+/// Does the character act on a terminal instead of being shown: by moving the cursor, or by turning the direction of
+/// the text around it?
+bool is_control(std::uint32_t code) {
+  if (code == '\n' || code == '\t') return false;
+  const auto is_from = [&](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
+  return code < 0x20 || is_from(0x7F, 0x9F) || code == 0x61C || is_from(0x200E, 0x200F) || is_from(0x2028, 0x202E) ||
+         is_from(0x2066, 0x2069);
 }
 
 }  // namespace
@@ -46,16 +72,15 @@ std::string printable(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t control = control_length(text);
-    if (control == 0) {
-      safe += text[0];
-      text.remove_prefix(1);
-      continue;
+    const Character character = first_character(text);
+    if (character.is_valid && !is_control(character.code)) {
+      safe += text.substr(0, character.length);
+    } else {
+      char digits[8];
+      std::snprintf(digits, sizeof digits, character.is_valid ? "\\u%04x" : "\\x%02x", character.code);
+      safe += digits;
     }
-    char digits[8];  // the last byte is the code point
-    std::snprintf(digits, sizeof digits, "\\u%04x", unsigned{static_cast<unsigned char>(text[control - 1])});
-    safe += digits;
-    text.remove_prefix(control);
+    text.remove_prefix(character.length);
   }
   return safe;
 }

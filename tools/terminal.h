@@ -8,7 +8,8 @@ namespace ccdt::tools {
 enum class Tone { good, bad, note };
 
 /// Makes a text safe for a terminal. Texts may contain names and contents of files, whose control characters could take
-/// over a terminal. All control characters except line feeds and tabs are escaped as in JSON: "\u001b".
+/// over a terminal. All control characters except line feeds and tabs, and those that turn the direction of text, are
+/// escaped as in JSON: "\u001b". Bytes that are not UTF-8 are written as "\x9b".
 std::string printable(std::string_view text);
 
 /// Prints a text to standard output, `printable`.

@@ -32,7 +32,7 @@ bool run(const VerifyCommand& command) {
     check_are_different(command.input, command.report);
     check_are_different(command.mesh, command.report);
   }
-  const verify::Verification verification = with_progress(command.mesh, [&](const Progress& progress) {
+  const verify::Verification verification = with_progress(command.mesh, command.threads, [&](const Progress& progress) {
     InputPlc input;
     TetMesh mesh;
     const auto read_input = [&] {
@@ -94,9 +94,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       "  ccdt verify --boundary slide part.stl part.vtu\n"
       "Example: check the mesh of a mesher that makes its own surface\n"
       "  ccdt verify --surface own part.stl part.vtu\n");
-  verb->callback([command, &exit_code] {
-    exit_code = with_threads(command->threads, [&] { return run(*command); }) ? done : failed_a_check;
-  });
+  verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
 }
 
 }  // namespace ccdt::tools

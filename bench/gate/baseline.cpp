@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ctime>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -182,8 +183,11 @@ Baseline read_baseline(const std::filesystem::path& file) {
   baseline.recording.source = file;
   baseline.recording.kind = Source::baseline;
   json.at("identity").get_to(baseline.recording.identity);
-  for (const auto& [name, groups] : json.at("cases").items())
-    baseline.recording.cases.push_back(case_from(name, groups));
+  try {
+    for (const auto& [name, groups] : json.at("cases").items()) add_case(case_from(name, groups), baseline.recording);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(error.what(), io::place_in(file.string()), "a baseline that `ccdt gate` wrote has fewer");
+  }
   json.at("history").get_to(baseline.history);
   return baseline;
 }

@@ -40,17 +40,16 @@ bool is_counter(const std::string& name, const Json& value) {
 }
 
 void add_sample(const std::string& name, Layer layer, const Json& value, CaseFigures& one) {
-  auto known = std::ranges::find(one.figures, name, &Figure::name);
-  if (known == one.figures.end()) known = one.figures.insert(known, Figure{name, layer, {}});
+  Figure& known = figure_named(name, layer, one);
   if (value.is_number()) {
-    known->samples.push_back(value.get<double>());
+    known.samples.push_back(value.get<double>());
     return;
   }
   const auto text = value.get<std::string>();
-  if (known->text.empty())
-    known->text = text;
-  else if (known->text != text)
-    known->text += " or " + text;  // which is not equal to any other text
+  if (known.text.empty())
+    known.text = text;
+  else if (known.text != text)
+    known.text += " or " + text;  // which is not equal to any other text
 }
 
 /// Programs older than 1.5 do not say which entries are aggregates.
@@ -173,7 +172,7 @@ void add_hyperfine(const Json& json, Recording& recording) {
     std::vector<std::string> words;
     for (const int code : codes) words.push_back(std::to_string(code));
     if (!words.empty()) one.figures.push_back({"exit_codes", Layer::exact, {}, bench::joined(words)});
-    recording.cases.push_back(std::move(one));
+    add_case(std::move(one), recording);
   }
 }
 

@@ -49,6 +49,10 @@ bool is_run(const Json& json) {
   return json.is_object() && bench::value_at(json, "schema") == bench::run_document.schema;
 }
 
+std::invalid_argument too_many(const std::string& what, std::size_t most) {
+  return std::invalid_argument("there are more than " + bench::with_separators(most) + " " + what);
+}
+
 /// Our figures have no longer names. With many members, longer names would take far more memory than the file.
 constexpr std::size_t longest_name = 500;
 
@@ -95,14 +99,13 @@ void add_run(const RunFile& run, bool is_warm_up, CaseFigures& one) {
   if (one.command.empty()) one.command = command_of(run);
   for (Figure& figure : figures_of(run.json)) {
     if (is_warm_up && figure.layer == Layer::time) continue;
-    const auto known = std::ranges::find(one.figures, figure.name, &Figure::name);
-    if (known == one.figures.end()) {
-      one.figures.push_back(std::move(figure));
-    } else {
-      known->samples.insert(known->samples.end(), figure.samples.begin(), figure.samples.end());
-      if (figure.text != known->text && !known->text.ends_with(" or " + figure.text))
-        known->text += " or " + figure.text;  // which is not equal to any other text
-    }
+    const std::size_t before = one.figures.size();
+    Figure& known = figure_named(figure.name, figure.layer, one);
+    known.samples.insert(known.samples.end(), figure.samples.begin(), figure.samples.end());
+    if (one.figures.size() > before)
+      known.text = std::move(figure.text);
+    else if (figure.text != known.text && !known.text.ends_with(" or " + figure.text))
+      known.text += " or " + figure.text;  // which is not equal to any other text
   }
 }
 
@@ -182,7 +185,7 @@ Recording read_sweep(const std::filesystem::path& folder) {
       });
     }
     if (!figures.figures.empty())
-      recording.cases.push_back(std::move(figures));
+      read_from(folder, [&] { add_case(std::move(figures), recording); });
     else
       recording.notes.push_back(one.asked.name + " was not run in " + folder.string());
   }
@@ -245,13 +248,28 @@ const CaseFigures* find_case(const Recording& recording, const std::string& name
 CaseFigures& case_named(const std::string& name, Recording& recording) {
   const auto known = std::ranges::find(recording.cases, name, &CaseFigures::name);
   if (known != recording.cases.end()) return *known;
-  recording.cases.push_back({name, {}, {}});
-  return recording.cases.back();
+  return add_case({name, {}, {}}, recording);
+}
+
+CaseFigures& add_case(CaseFigures one, Recording& recording) {
+  if (recording.cases.size() == most_cases) throw too_many("cases", most_cases);
+  if (one.figures.size() > most_figures) throw too_many("figures", most_figures);
+  return recording.cases.emplace_back(std::move(one));
+}
+
+Figure& figure_named(const std::string& name, Layer layer, CaseFigures& one) {
+  const auto known = std::ranges::find(one.figures, name, &Figure::name);
+  if (known != one.figures.end()) return *known;
+  if (one.figures.size() == most_figures) throw too_many("figures", most_figures);
+  one.figures.push_back({name, layer, {}});
+  return one.figures.back();
 }
 
 Recording read_recording(const std::filesystem::path& path) {
   Recording recording;
-  if (!std::filesystem::is_directory(path))
+  const bool is_folder = std::filesystem::is_directory(path);
+  if (is_folder) io::check_links_stay_within(path);
+  if (!is_folder)
     recording = read_file(path);
   else if (std::filesystem::exists(sweep::sweep_file(path)))
     recording = read_sweep(path);

@@ -63,8 +63,22 @@ const Figure* find_figure(const CaseFigures& one, const std::string& name);
 /// The case of this name; null if the recording has none.
 const CaseFigures* find_case(const Recording& recording, const std::string& name);
 
+/// \name Limits of a recording, whose figures and cases are looked up one after the other.
+/// @{
+inline constexpr std::size_t most_figures = 10'000;  ///< of a case
+inline constexpr std::size_t most_cases = 20'000;
+/// @}
+
 /// The case of this name, a new one if the recording has none.
+/// \throw std::invalid_argument  there are more than `most_cases`
 CaseFigures& case_named(const std::string& name, Recording& recording);
+
+/// \throw std::invalid_argument  there are too many cases or figures
+CaseFigures& add_case(CaseFigures one, Recording& recording);
+
+/// The figure of this name, a new one without samples if the case has none.
+/// \throw std::invalid_argument  there are more than `most_figures`
+Figure& figure_named(const std::string& name, Layer layer, CaseFigures& one);
 
 /// Reads a recording: the folder of a sweep, a folder or a file of ccdt.run/1, the JSON of Google Benchmark or of
 /// hyperfine, or a ccdt.baseline/1.

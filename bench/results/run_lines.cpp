@@ -2,6 +2,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "bench/results/csv_text.h"
 #include "bench/results/row_columns.h"
 #include "bench/results/sweep_result.h"
 #include "bench/run/file_names.h"
@@ -41,24 +42,22 @@ std::vector<std::string> names_of(const Sweep& sweep) {
   return names;
 }
 
-std::string csv_text(const Cell& cell) {
+std::string csv_cell(const Cell& cell) {
   if (const auto* number = std::get_if<double>(&cell)) return digits(*number);
   const auto* text = std::get_if<std::string>(&cell);
-  if (text == nullptr) return "";
-  if (text->find_first_of(",\"\r\n") == std::string::npos) return *text;
-  std::string quoted = "\"";
-  for (const char c : *text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
+  return text == nullptr ? "" : csv_text(*text);
 }
 
 }  // namespace
 
 std::string runs_as_csv(const Sweep& sweep) {
-  std::string text = bench::joined(names_of(sweep), ",") + "\r\n";
+  std::vector<std::string> names = names_of(sweep);
+  std::ranges::transform(names, names.begin(), csv_text);
+  std::string text = bench::joined(names, ",") + "\r\n";
   for (const CaseRuns& of : sweep.cases)
     for (const NumberedRun& run : of.runs) {
       const std::vector<Cell> values = values_of(sweep, of, run);
-      for (std::size_t i = 0; i < values.size(); ++i) text.append(i == 0 ? "" : ",").append(csv_text(values[i]));
+      for (std::size_t i = 0; i < values.size(); ++i) text.append(i == 0 ? "" : ",").append(csv_cell(values[i]));
       text += "\r\n";
     }
   return text;

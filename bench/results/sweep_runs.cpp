@@ -5,7 +5,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "bench/run/identity.h"
 #include "bench/run/in_parallel.h"
 
 namespace ccdt::results {
@@ -37,12 +36,9 @@ using Owners = std::unordered_map<std::string, Owner>;
 Owners owners_of(const sweep::SweepDocument& document) {
   Owners owners;
   for (std::size_t i = 0; i < document.cases.size(); ++i) owners.emplace(document.cases[i].id, Owner{i, 0});
-  if (document.identities.size() == 1) return owners;
-  const std::vector<bench::Case> asked = sweep::asked_of(document.cases);
-  bench::FileHashes hashes;
-  for (std::size_t age = 1; age < document.identities.size(); ++age)
-    for (std::size_t i = 0; i < asked.size(); ++i)
-      owners.emplace(id_of(asked[i], document.identities[age], hashes), Owner{i, age});
+  for (std::size_t i = 0; i < document.cases.size(); ++i)
+    for (std::size_t k = 0; k < document.cases[i].older_ids.size(); ++k)
+      owners.emplace(document.cases[i].older_ids[k], Owner{i, k + 1});
   return owners;
 }
 

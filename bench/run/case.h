@@ -52,10 +52,11 @@ struct Case {
 /// A case with the records of its runs.
 struct MeasuredCase {
   Case asked;
-  std::string id = {};                  ///< hash of all that determines the result; the records' names begin with it
-  int runs = 0;                         ///< number of records, numbered from 0
-  RunRecord first = {};                 ///< the first run, or the one that failed; meaningless without runs
-  std::vector<RunRecord> counted = {};  ///< successful runs without the warm-up
+  std::string id = {};  ///< hash of all that determines the result; the records' names begin with it
+  std::vector<std::string> older_ids = {};  ///< with the other identities that are accepted, in their order
+  int runs = 0;                             ///< number of records, numbered from 0
+  RunRecord first = {};                     ///< the first run, or the one that failed; meaningless without runs
+  std::vector<RunRecord> counted = {};      ///< successful runs without the warm-up
   bool failed() const { return runs > 0 && first.status != baselines::RunStatus::ok; }
 };
 

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <system_error>
 #include <tuple>
 
 #include "baselines/mesher.h"
@@ -181,8 +182,10 @@ std::uint64_t peak_rss_bytes() {
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return {};  // opening a pipe would wait for its other end
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) return {};
+  if (!stream) return {};
   Sha256 hash;
   std::array<char, 65536> block;
   while (stream.read(block.data(), block.size()), stream.gcount() > 0)

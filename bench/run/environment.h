@@ -46,7 +46,7 @@ std::vector<std::string> command_line();
 /// getrusage, it starts at 0 after exec, so a program is not charged for the memory of its parent.
 std::uint64_t peak_rss_bytes();
 
-/// SHA-256 of a file's bytes, 64 lowercase hexadecimal digits; empty if the file cannot be read.
+/// SHA-256 of a file's bytes, 64 lowercase hexadecimal digits; empty if it cannot be read or is no regular file.
 std::string sha256_of_file(const std::filesystem::path& file);
 /// SHA-256 of the bytes of a text.
 std::string sha256_of_text(std::string_view text);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -30,7 +31,10 @@ void in_parallel(std::size_t count, const Work& work, std::size_t most_threads =
   };
   {
     std::vector<std::jthread> others;
-    for (std::size_t thread = 1; thread < std::min(count, most_threads); ++thread) others.emplace_back(take_all);
+    try {
+      for (std::size_t thread = 1; thread < std::min(count, most_threads); ++thread) others.emplace_back(take_all);
+    } catch (const std::system_error&) {  // no more threads can be started; those that there are do all
+    }
     take_all();
   }
   if (failure) std::rethrow_exception(failure);

@@ -165,7 +165,10 @@ std::vector<MeasuredCase> Runner::load(std::span<const Case> cases) {
   for (std::size_t i = 0; i < cases.size(); ++i)  // here, because only one thread may use the hashes
     for (const Identity& identity : settings_.identities) ids[i].push_back(id_of(cases[i], identity, hashes_));
   std::vector<MeasuredCase> all(cases.size());
-  in_parallel(cases.size(), [&](std::size_t i) { all[i] = find_case(settings_, cases[i], ids[i], tried_); });
+  in_parallel(cases.size(), [&](std::size_t i) {
+    all[i] = find_case(settings_, cases[i], ids[i], tried_);
+    all[i].older_ids.assign(ids[i].begin() + 1, ids[i].end());
+  });
   return all;
 }
 

@@ -30,6 +30,7 @@ struct SweepCase {
   std::string mesher;                                        ///< its name in reports
   std::vector<std::pair<std::string, std::string>> options;  ///< options that make a difference to its mesher, by name
   std::string id = {};                                       ///< known once its input exists
+  std::vector<std::string> older_ids = {};                   ///< with the other identities of a mixed sweep
 };
 
 /// All cases of a spec: inputs times meshers times options, minus excluded ones, in the order of the spec. An option

@@ -39,6 +39,7 @@ Json json_of(const SweepCase& one, const std::filesystem::path& folder) {
   if (baselines::is_mesher_description(one.asked.mesher)) json["mesher_file"] = one.asked.mesher;
   json["options"] = std::move(options);
   json["repetitions"] = json_of(one.asked.repetitions);
+  if (!one.older_ids.empty()) json["older_ids"] = one.older_ids;
   return json;
 }
 
@@ -51,6 +52,7 @@ SweepCase case_from(const Json& json, const SweepSpec& common, const std::filesy
   one.input.edge_length = input.value("edge_length", 0.0);
   json.at("id").get_to(one.id);
   bench::check_file_name(one.id);
+  one.older_ids = json.value("older_ids", one.older_ids);
   json.at("name").get_to(one.asked.name);
   json.at("group").get_to(one.asked.group);
   json.at("mesher").get_to(one.mesher);

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "engine/base/errors.h"
@@ -26,7 +27,7 @@ namespace {
 thread_local bool is_alone = false;
 
 /// Calls `use(guarded)`, which calls our own functions through `guarded`. Any other failure is that of oneTBB itself:
-/// it starts threads when it needs them, and the system may lack memory, or allow no more threads.
+/// it starts threads when it needs them, and the system may allow no more of them, or lack memory (`std::bad_alloc`).
 ///
 /// \throw LimitError  oneTBB failed
 /// \throw ...         what our functions throw
@@ -43,6 +44,8 @@ void with_errors_of_library(const Use& use) {
   };
   try {
     use(guarded);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception& error) {
     if (is_ours) throw;
     throw LimitError(std::string("no more threads can be started: ") + error.what(), {},

@@ -39,6 +39,16 @@ bool is_within(const std::filesystem::path& folder, const std::filesystem::path&
   return std::ranges::mismatch(of_folder, place).in1 == of_folder.end();
 }
 
+void check_links_stay_within(const std::filesystem::path& folder) {
+  std::filesystem::recursive_directory_iterator entry(folder), end;
+  for (; entry != end; ++entry) {
+    if (entry.depth() > 0) entry.disable_recursion_pending();
+    if (entry->is_symlink() && !is_within(folder, entry->path()))
+      throw InputError("a link that leads out of the folder, or to nothing", place_in(entry->path().string()),
+                       "remove it: results are only read from this folder and written to it");
+  }
+}
+
 void check_is_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
@@ -106,11 +116,11 @@ OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw OutputError("is not a regular file and cannot be replaced", place_in(target_.string()),
                       "name an ordinary file");
+  buffer_.reserve(buffer_size + 64);  // may throw, so there must be no file yet
   temporary_ = temporary_beside(target_);
   unfinished_.emplace(temporary_);
   stream_ = std::fopen(temporary_.c_str(), "wbx");
   if (!stream_) fail(errno);
-  buffer_.reserve(buffer_size + 64);
 }
 
 OutputFile::~OutputFile() {

@@ -30,6 +30,11 @@ bool is_there(const std::filesystem::path& file);
 /// Does the file exist in the folder or below it, after following links?
 bool is_within(const std::filesystem::path& folder, const std::filesystem::path& file);
 
+/// Folders of results may come from somebody else, with links among the names that are read or written there.
+///
+/// \throw InputError  in the folder or in a folder in it, there is a link that leads out of it
+void check_links_stay_within(const std::filesystem::path& folder);
+
 /// \throw InputError  no such file, a folder, or not a regular file
 void check_is_file(const std::filesystem::path& file);
 

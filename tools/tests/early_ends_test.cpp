@@ -1,8 +1,10 @@
+#include <fcntl.h>
 #include <signal.h>
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
@@ -14,73 +16,196 @@
 namespace ccdt {
 namespace {
 
+/// A call of the program.
+struct Call {
+  std::vector<std::string> words;
+  std::vector<std::string> results = {};  ///< files; if any is there, so is the last one
+  std::string record = {};                ///< a report that says from the beginning how the call ended
+  std::string folder = {};                ///< of whole parts of the result, with which the next call continues
+  std::set<int> ends = {0};               ///< exit codes, undisturbed
+};
+
+/// A limit of the system for one call.
+struct SystemLimit {
+  int resource = 0;
+  rlim_t bytes = 0;
+};
+
 /// Ends that come from outside: signals, limits of memory, a full disk. What a call wrote for itself goes with it.
 class EarlyEnd : public Program {
  protected:
   EarlyEnd() {
     setenv("TMPDIR", work().c_str(), 1);  // where scratch folders are
     EXPECT_EQ(run("model piston --edge-length 5 -o part.off").exit_code, 0);
+    EXPECT_EQ(run("mesh part.off -o part.vtu --report part.json").exit_code, 0);
+    std::string surface = text_of(work() / "part.off");
+    surface.replace(surface.rfind("\n3 "), std::string::npos, "\n3 0 1 2\n");  // a hole, and a facet too many
+    write("broken.off", surface);
+    write("spec.json", R"({"schema": "ccdt.sweep/1", "name": "s", "inputs": [{"model": "cube", "edge_length": 0.5}],
+                           "meshers": ["ccdt"], "repetitions": 2, "keep_meshes": true, "verify": true})");
+    EXPECT_EQ(run("sweep spec.json -o swept").exit_code, 0);
+    EXPECT_EQ(run("report swept").exit_code, 0);
   }
   ~EarlyEnd() override { unsetenv("TMPDIR"); }
 
-  /// Starts the program.
-  pid_t start(const std::vector<std::string>& arguments) const {
+  /// Every verb that writes. Their results are the same in each call, except for JSON.
+  static std::vector<Call> calls() {
+    return {
+        {{"model", "piston", "--edge-length", "2", "-o", "m.off"}, {"m.off"}},
+        {{"mesh", "part.off", "-o", "o.vtu", "--report", "r.json", "--threads", "2"}, {"o.vtu"}, "r.json"},
+        {{"mesh", "part.off", "-o", "o.ele"}, {"o.face", "o.edge", "o.ele", "o.node"}},
+        {{"mesh", "part.off", "-o", "o.mesh", "--surface", "remesh", "--edge-length", "5", "--surface-output", "s.off"},
+         {"s.off", "o.mesh"}},
+        {{"mesh", "part.off", "-o", "o.meshb", "--surface", "refine", "--edge-length", "5"}, {"o.meshb"}},
+        {{"check", "part.off", "--report", "r.json"}, {"r.json"}},
+        {{"check", "broken.off", "--repair", "-o", "c.off", "--limit", "5"}, {"c.off"}, {}, {}, {0, 3}},
+        {{"verify", "part.off", "part.vtu", "--report", "r.json"}, {"r.json"}},
+        {{"sweep", "spec.json", "-o", "new"}, {}, {}, "new"},
+        {{"reproduce", "fig7", "--scale", "1000", "-o", "new"}, {}, {}, "new"},
+        {{"report", "swept"}, {}, {}, "swept"},
+        {{"gate", "part.json", "--against", "part.json", "--markdown", "g.md"}, {"g.md"}},
+        {{"gate", "part.json", "--against", "b.json", "--update", "--reason", "a test"}, {"b.json"}},
+        {{"man", "-o", "new"}, {}, {}, "new"},
+    };
+  }
+
+  /// Starts the program. What it says goes to the file "said" beside the others.
+  pid_t start(const Call& call, const SystemLimit* limit = nullptr) const {
     const pid_t child = fork();
     if (child != 0) return child;
-    if (chdir(work().c_str()) != 0) _exit(126);
-    if (freopen("/dev/null", "w", stdout) == nullptr || freopen("/dev/null", "w", stderr) == nullptr) _exit(126);
+    const int said = open((work() / "../said").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (chdir(work().c_str()) != 0 || dup2(said, STDOUT_FILENO) < 0 || dup2(said, STDERR_FILENO) < 0) _exit(126);
+    if (limit != nullptr) {
+      const rlimit value = {limit->bytes, limit->bytes};
+      if (setrlimit(static_cast<__rlimit_resource>(limit->resource), &value) != 0) _exit(126);
+    }
     signal(SIGINT, SIG_DFL);
     std::vector<char*> words = {const_cast<char*>(CCDT_PROGRAM)};
-    for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
+    for (const std::string& word : call.words) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
     execv(CCDT_PROGRAM, words.data());
     _exit(127);
   }
 
+  /// \return  the exit code; 128 plus the signal that ended the program
+  static int code_of(pid_t child) {
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  std::string said() const { return text_of(work() / "../said"); }
+
   std::set<std::string> files() const {
     std::set<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(work())) names.insert(entry.path().filename());
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(work()))
+      names.insert(entry.path().lexically_relative(work()));
     return names;
   }
 
-  /// Ends calls by signals at random moments of their usual time.
-  /// \return  how many were ended before they were done
-  int end_at_random(const std::vector<std::string>& arguments, std::set<std::string> results) const {
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
-    int status = 0;
-    waitpid(start(arguments), &status, 0);
-    double usual = std::chrono::duration<double>(Clock::now() - begin).count();
-    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-    for (const std::string& result : results) std::filesystem::remove(work() / result);
-    const std::set<std::string> before = files();
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> moment(0.02, usual);
-    int ended = 0, ended_by_handler = 0;
-    for (int i = 0; i < 24; ++i) {
-      const int number = i % 2 == 0 ? SIGTERM : SIGINT;
-      const pid_t child = start(arguments);
-      std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
-      kill(child, number);
-      waitpid(child, &status, 0);
-      // A signal that comes before the program handles it ends it at once; nothing is written yet.
-      const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-      EXPECT_TRUE(code == 0 || code == 128 + number) << code;
-      ended += code != 0;
-      ended_by_handler += WIFEXITED(status) && code != 0;
-      if (code == 0) usual = std::max(0.8 * usual, 0.03);  // a call that is done was not as slow as the first one
-      for (const std::string& result : results) std::filesystem::remove(work() / result);
-      EXPECT_EQ(files(), before) << "after signal " << number;
+  /// The results that are there, with their contents.
+  std::map<std::string, std::string> results_of(const Call& call) const {
+    std::map<std::string, std::string> results;
+    for (const std::string& name : call.results)
+      if (std::filesystem::exists(work() / name)) results[name] = name.ends_with(".json") ? "" : text_of(work() / name);
+    return results;
+  }
+
+  /// Removes what a call has made.
+  void remove_made(const std::set<std::string>& before) const {
+    for (const std::string& name : files())
+      if (!before.contains(name)) std::filesystem::remove_all(work() / name);
+  }
+
+  /// After an end that was not the call's own: only whole results may be there.
+  void expect_no_remains(const Call& call, const std::set<std::string>& before,
+                         const std::map<std::string, std::string>& whole) const {
+    const auto results = results_of(call);
+    for (const auto& [name, content] : results) EXPECT_EQ(content, whole.at(name)) << name << " is not whole";
+    EXPECT_TRUE(results.empty() || results.contains(call.results.back())) << "only a part of the result is there";
+    for (const std::string& name : files()) {
+      const bool is_kept = !call.folder.empty() && name.starts_with(call.folder) && !name.ends_with(".tmp");
+      EXPECT_TRUE(before.contains(name) || results.contains(name) || name == call.record || is_kept) << name;
     }
-    EXPECT_GT(ended_by_handler, 0);
+  }
+
+  /// Calls the program undisturbed, and then `disturb(whole, seconds)`.
+  template <class Disturb>
+  void with_results_of(const Call& call, const Disturb& disturb) const {
+    using Clock = std::chrono::steady_clock;
+    SCOPED_TRACE(testing::PrintToString(call.words));
+    const std::set<std::string> before = files();
+    const auto begin = Clock::now();
+    EXPECT_TRUE(call.ends.contains(code_of(start(call)))) << said();
+    const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    const auto whole = results_of(call);
+    EXPECT_EQ(whole.size(), call.results.size());
+    remove_made(before);
+    disturb(before, whole, seconds);
+  }
+
+  /// Ends calls by signals at random moments of their usual time.
+  void end_at_random(const Call& call) const {
+    const char* many = std::getenv("CCDT_EARLY_ENDS");
+    const int count = many == nullptr ? 5 : std::stoi(many);
+    int ended = 0;
+    with_results_of(call, [&](const auto& before, const auto& whole, double seconds) {
+      std::mt19937 random(std::random_device{}());
+      std::uniform_real_distribution<double> moment(0, seconds);
+      for (int i = 0; i < count; ++i) {
+        const int number = i % 2 == 0 ? SIGTERM : SIGINT;
+        const pid_t child = start(call);
+        std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+        kill(child, number);
+        const int code = code_of(child);
+        EXPECT_TRUE(code == 128 + number || call.ends.contains(code)) << code << "\n" << said();
+        ended += code == 128 + number;
+        expect_no_remains(call, before, whole);
+        remove_made(before);
+      }
+    });
+    RecordProperty(call.words.front() + "_ended", ended);
+  }
+
+  /// Calls the program under larger and larger limits.
+  /// \param ends  the exit code at a limit
+  /// \return      how many calls ended so
+  int end_at_limits(const Call& call, int resource, const std::vector<rlim_t>& limits, int ends) const {
+    int ended = 0;
+    with_results_of(call, [&](const auto& before, const auto& whole, double /*seconds*/) {
+      for (const rlim_t bytes : limits) {
+        SCOPED_TRACE(bytes);
+        const SystemLimit limit{resource, bytes};
+        const int code = code_of(start(call, &limit));
+        const bool has_started = code != 127;  // otherwise the system could not load the program
+        EXPECT_TRUE(!has_started || code == ends || call.ends.contains(code)) << code << "\n" << said();
+        ended += code == ends;
+        if (call.ends.contains(code)) {
+          EXPECT_EQ(results_of(call), whole);
+        }
+        EXPECT_TRUE(code != limit_reached || names_work(call)) << said();
+        expect_no_remains(call, before, whole);
+        remove_made(before);
+      }
+    });
     return ended;
+  }
+
+ private:
+  static constexpr int limit_reached = 4;
+
+  /// Does the error name a file or folder of the call?
+  bool names_work(const Call& call) const {
+    const std::string text = said();
+    return std::ranges::any_of(call.words, [&](const std::string& word) {
+      const bool is_file = word.find('.') != std::string::npos || word == call.folder;
+      return is_file && text.find(word) != std::string::npos;
+    });
   }
 };
 
-TEST_F(EarlyEnd, BySignalsLeavesNothing) {
-  EXPECT_GT(end_at_random({"mesh", "part.off", "-o", "o.vtu"}, {"o.vtu"}), 5);
-  EXPECT_GT(end_at_random({"mesh", "part.off", "-o", "o.node"}, {"o.node", "o.ele", "o.face", "o.edge"}), 5);
-  EXPECT_GT(end_at_random({"check", "part.off", "--repair", "-o", "copy.off"}, {"copy.off"}), 2);
+TEST_F(EarlyEnd, BySignalsLeavesOnlyWholeResults) {
+  for (const Call& call : calls()) end_at_random(call);
 }
 
 TEST_F(EarlyEnd, OfADescribedMesherRemovesItsScratchFolder) {
@@ -89,26 +214,20 @@ TEST_F(EarlyEnd, OfADescribedMesherRemovesItsScratchFolder) {
                          "command": ["/bin/sh", "-c", "sleep 0.4; cp )" +
                          (work() / "good.mesh").string() +
                          R"( out.mesh"], "input_format": "off", "output": "out.mesh"})");
-  EXPECT_GT(end_at_random({"mesh", "part.off", "-o", "o.vtu", "--mesher", "slow.json"}, {"o.vtu"}), 5);
+  end_at_random({{"mesh", "part.off", "-o", "o.vtu", "--mesher", "slow.json"}, {"o.vtu"}});
 }
 
-TEST_F(EarlyEnd, WithoutMemoryIsALimitThatNamesStageAndFile) {
-  int limits = 0;
-  for (const int megabytes : {20, 24, 28, 34, 40, 60, 100}) {
-    const std::set<std::string> before = files();
-    const std::string call = "ulimit -v " + std::to_string(megabytes) + "000; cd " + work().string() + "; exec " +
-                             CCDT_PROGRAM + " mesh part.off -o o.vtu --threads 2 2>err.txt";
-    const int status = std::system(("sh -c '" + call + "' >/dev/null").c_str());
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    const std::string error = text_of(work() / "err.txt");
-    std::filesystem::remove(work() / "err.txt");
-    const bool has_started = code != 127;  // otherwise the system could not load the program
-    EXPECT_TRUE(!has_started || code == 0 || code == 4) << megabytes << " MB: " << code << " " << error;
-    limits += code == 4;
-    std::filesystem::remove(work() / "o.vtu");
-    EXPECT_EQ(files(), before) << megabytes;
-  }
-  EXPECT_GT(limits, 0);
+TEST_F(EarlyEnd, WithoutMemoryIsALimitThatNamesTheFile) {
+  std::vector<rlim_t> limits;
+  for (const rlim_t megabytes : {20, 24, 26, 28, 30, 34, 38, 44, 50, 60, 80, 100, 200, 500})
+    limits.push_back(megabytes * 1'000'000);
+  int ended = 0;
+  for (const Call& call : calls()) ended += end_at_limits(call, RLIMIT_AS, limits, 4);
+  EXPECT_GT(ended, 0);
+}
+
+TEST_F(EarlyEnd, AtTheLargestSizeOfAFileIsAnErrorOfWriting) {
+  for (const Call& call : calls()) EXPECT_GT(end_at_limits(call, RLIMIT_FSIZE, {0, 500, 1'000, 10'000, 100'000}, 3), 0);
 }
 
 TEST_F(EarlyEnd, OfStandardOutputIsAnError) {

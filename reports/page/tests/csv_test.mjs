@@ -23,6 +23,11 @@ test("commas, quotes and line ends are kept in quotes", () => {
   assert.ok(csvOf(table).includes('"a, ""b""",,,,"two\nlines",\r\n'));
 });
 
+test("a text is no formula, and a negative number stays a number", () => {
+  const row = { values: { model: "=1+1", seconds: -2, reason: "@a" }, runs: [] };
+  assert.ok(csvOf({ ...table, rows: [row] }).endsWith("'=1+1,-2,'@a,\r\n"));
+});
+
 test("only the rows that are shown are written", () => {
   assert.equal(csvOf(table, table.rows.slice(0, 1)).split("\r\n").length, 3);
 });

@@ -1,6 +1,9 @@
+/** Spreadsheets take a text for a formula if it begins with one of these. The program's own CSV does the same. */
+const FORMULA = /^[=+\-@\t\r\n]/;
+
 function quoted(value) {
   if (value === null || value === undefined) return "";
-  const text = String(value);
+  const text = typeof value === "string" && FORMULA.test(value) ? `'${value}` : String(value);
   return /[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
