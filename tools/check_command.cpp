@@ -10,6 +10,7 @@
 #include "reports/check_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/part_of_result.h"
 #include "tools/progress_bar.h"
@@ -143,7 +144,9 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       "  ccdt check part.stl --repair --gap 0.01 -o repaired.off && ccdt mesh repaired.off -o part.vtu\n"
       "Example: fill holes with lids that reach up to 5 units from their rims\n"
       "  ccdt check part.stl --repair --limit 5 -o repaired.off\n");
-  verb->callback([command, &exit_code] { exit_code = run(*command); });
+  verb->callback([command, &exit_code] {
+    exit_code = with_stage_of_limits(command->input, "report", [&] { return run(*command); });
+  });
 }
 
 }  // namespace ccdt::tools

@@ -29,6 +29,7 @@
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/part_of_result.h"
 #include "tools/progress_bar.h"
@@ -403,7 +404,7 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
       option->add_result(value);
       option->run_callback();
     }
-    run(*command);
+    with_stage_of_limits(command->input, "report", [&] { run(*command); });
     exit_code = done;
   });
 }

@@ -11,6 +11,7 @@
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
@@ -94,7 +95,9 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       "  ccdt verify --boundary slide part.stl part.vtu\n"
       "Example: check the mesh of a mesher that makes its own surface\n"
       "  ccdt verify --surface own part.stl part.vtu\n");
-  verb->callback([command, &exit_code] { exit_code = run(*command) ? done : failed_a_check; });
+  verb->callback([command, &exit_code] {
+    exit_code = with_stage_of_limits(command->mesh, "report", [&] { return run(*command); }) ? done : failed_a_check;
+  });
 }
 
 }  // namespace ccdt::tools

@@ -94,7 +94,7 @@ std::vector<CostlyFile> costly_files() {
        100},
       {"elements.vtu", [](std::size_t size) { return "<VTKFile>" + repeated("<a>", size / 3); }, 100,
        "verify far.off FILE"},
-      {"zeros.vtu", [](std::size_t size) { return compressed_mesh(size / 16); }, 2000, "verify far.off FILE"},
+      {"zeros.vtu", [](std::size_t size) { return compressed_mesh(size / 16); }, 2500, "verify far.off FILE"},
       {"lists.json",
        [](std::size_t size) {
          return "[" + repeated(std::string(150, '[') + std::string(150, ']') + ",", size / 301) + "1]";

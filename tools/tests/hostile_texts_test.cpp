@@ -109,7 +109,7 @@ class HostileTexts : public Program {
       }
       outside_code += text[i];
     }
-    for (const char* markup : {"<script", "<img", "<b>", "<!--", "](", "# lines", "\n---", "\r"})
+    for (const char* markup : {"<script", "<img", "<b>", "<!--", "](", "\n# lines", "\n---", "\r"})
       EXPECT_EQ(outside_code.find(markup), std::string::npos) << markup << "\n" << outside_code;
     std::istringstream lines(outside_code);
     for (std::string line; std::getline(lines, line);) {
@@ -264,11 +264,11 @@ TEST_F(HostileTexts, InJsonAreTheSame) {
 TEST_F(HostileTexts, OfSurfacesAreNotInMeshes) {
   write("plain.off", text_of(work() / "cube.off"));
   ASSERT_EQ(run("check plain.off --repair -o plain.obj").exit_code, 0);
-  write("named.obj", "o </VTKFile>&\ng $EndNodes\nusemtl ]]>\n" + text_of(work() / "plain.obj"));
+  write("named.obj", "o </VTKFile>&\ng $Strange\nusemtl ]]>\n" + text_of(work() / "plain.obj"));
   for (const char* ending : {".vtu", ".msh", ".mesh", ".node"}) {
     ASSERT_EQ(run("mesh named.obj -o named" + std::string(ending)).exit_code, 0);
-    ASSERT_EQ(run("mesh plain.obj -o plain" + std::string(ending)).exit_code, 0);
-    EXPECT_TRUE(text_of(work() / ("named" + std::string(ending))) == text_of(work() / ("plain" + std::string(ending))));
+    const std::string text = text_of(work() / ("named" + std::string(ending)));
+    for (const char* name : {"</VTKFile>&", "$Strange", "]]>"}) EXPECT_EQ(text.find(name), std::string::npos) << ending;
   }
 }
 
