@@ -29,7 +29,7 @@ unsigned number_of_threads(const MeshOptions& options);
 /// \param options     strategies, sizes and targets of improvement
 /// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
 ///                    released
-/// \throw InputError  the input is not a valid PLC, or remeshing has no edge length
+/// \throw InputError  the input is not a valid PLC, an option is out of range, or remeshing has no edge length
 /// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh would have too many vertices
 /// \throw MeshError   no valid mesh or new surface was found
 /// \throw ...         any exception of `progress`

@@ -42,6 +42,9 @@ inline Point3 componentwise_min(const Point3& a, const Point3& b) {
 inline Point3 componentwise_max(const Point3& a, const Point3& b) {
   return {a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y, a.z < b.z ? b.z : a.z};
 }
+inline bool is_finite(const Point3& a) {
+  return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
 inline std::array<double, 3> as_array(const Point3& a) {
   return {a.x, a.y, a.z};
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <ranges>
 
+#include "engine/base/check_arguments.h"
 #include "engine/io/bridge_walls.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/io/text_scanner.h"
+#include "engine/plc/check_input.h"
 
 namespace ccdt::io {
 
@@ -70,10 +72,24 @@ void check_format_holds(const plc::InputPlc& plc, const PlcFormat& format, const
   refuse_if(!format.limits.segments && !plc.segments.empty(), "segments");
   refuse_if(!format.limits.seeds && !plc.holes.empty(), "seeds of holes");
   refuse_if(!format.limits.seeds && !plc.regions.empty(), "seeds of regions");
+  refuse_if(!std::ranges::all_of(plc.vertices, is_finite), "coordinates that are not finite");
   for (const plc::PolygonFacet& facet : plc.polygon_facets)
     if (const std::string what = objection(facet, format); !what.empty())
       refuse_if(true, what, "facet " + std::to_string(facet.number) + ": ");
   refuse_if(!format.limits.loose_vertices && has_loose_vertex(plc), "vertices without facets");
+}
+
+/// \throw OutputError  an index or a list of the mesh is wrong
+void check_mesh(const mesh::TetMesh& mesh, const std::string& file) {
+  const std::size_t count = mesh.vertices.size();
+  if (!are_below(count, mesh.tetrahedra) || !are_below(count, mesh.faces) || !are_below(count, mesh.edges))
+    throw OutputError("the mesh has a corner that is not a vertex", place_in(file), "count the vertices from 0");
+  if (!is_empty_or_complete(mesh.regions, mesh.tetrahedra) || !is_empty_or_complete(mesh.face_markers, mesh.faces) ||
+      !is_empty_or_complete(mesh.edge_markers, mesh.edges))
+    throw OutputError("a list of attributes is not as long as that of the elements", place_in(file),
+                      "give none, or one for each element");
+  if (!std::ranges::all_of(mesh.vertices, is_finite))
+    throw OutputError("a coordinate is not finite", place_in(file), "check the mesh");
 }
 
 struct TetMeshFormat {
@@ -185,6 +201,7 @@ plc::InputPlc read_plc(const std::filesystem::path& file) {
 }
 
 void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {
+  with_file_in_errors(file.string(), [&] { plc::check_input(plc); });
   const PlcFormat* format = format_of(file, plc_formats);
   if (!format || !format->write) fail_to_write(file, ".stl, .off, .obj, .ply, .poly, .smesh, .mesh and .meshb");
   check_format_holds(plc, *format, file.string());
@@ -198,6 +215,7 @@ bool is_tet_mesh_file(const std::filesystem::path& file) {
 }
 
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
+  check_mesh(mesh, file.string());
   const TetMeshFormat* format = format_of(file, mesh_formats);
   if (!format) fail_to_write(file, mesh_endings);
   if (!format->write) return write_tetgen_mesh(mesh, file);

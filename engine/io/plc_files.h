@@ -23,6 +23,7 @@ plc::InputPlc read_plc(const std::filesystem::path& file);
 ///
 /// \throw OutputError  cannot be written, unknown extension, or the format cannot hold the PLC (segments, holes,
 /// regions in .stl)
+/// \throw InputError   an index is out of range, or a list incomplete
 void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file);
 
 }  // namespace ccdt::io

@@ -14,7 +14,7 @@ bool is_tet_mesh_file(const std::filesystem::path& file);
 /// written). Coordinates are written so that they read back bit for bit. Regions, face and edge markers are written
 /// too. The file appears completely or not at all.
 ///
-/// \throw OutputError  cannot be written, unknown extension
+/// \throw OutputError  cannot be written, unknown extension, or an index, a list or a coordinate of the mesh is wrong
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 
 /// Reads a mesh that any mesher wrote in one of these formats: Medit text, .meshb versions 1 to 4, .vtu in text, base64

@@ -28,8 +28,7 @@ namespace {
 
 void check_coordinates(const InputPlc& input) {
   for (std::size_t i = 0; i < input.vertices.size(); ++i) {
-    const auto [x, y, z] = input.vertices[i];
-    if (std::isfinite(x) && std::isfinite(y) && std::isfinite(z)) continue;
+    if (is_finite(input.vertices[i])) continue;
     throw InputError("vertex " + std::to_string(i) + " (counted from 0) has a coordinate that is not a finite number",
                      {.file = input.name},
                      "export the model again, or correct or remove this vertex and the facets that use it");

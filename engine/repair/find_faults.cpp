@@ -9,9 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/check_arguments.h"
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
 #include "engine/plc/input_faults.h"
 #include "engine/repair/gather_soup.h"
@@ -71,7 +73,6 @@ void find_unusual_file(const InputPlc& input, Diagnosis& diagnosis) {
 }
 
 bool find_coordinates(const InputPlc& input, Diagnosis& diagnosis) {
-  const auto is_finite = [](const Point3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); };
   const auto first = std::ranges::find_if_not(input.vertices, is_finite);
   if (first == input.vertices.end()) return false;
   const auto count = input.vertices.end() - first - std::count_if(first, input.vertices.end(), is_finite);
@@ -275,6 +276,8 @@ Diagnosis describe(const InputPlc& input) {
 
 Diagnosis find_faults(const InputPlc& input, double flatness, const Progress& progress) {
   const plc::PlcOptions options{flatness};
+  plc::check_input(input);
+  check_number("flatness", flatness);
   Diagnosis diagnosis = describe(input);
   find_unusual_file(input, diagnosis);
   report(progress, check_stage, 0, check_steps);

@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "engine/base/box.h"
+#include "engine/base/check_arguments.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
 #include "engine/base/simplex_map.h"
+#include "engine/plc/check_input.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/repair/certify.h"
 #include "engine/repair/close_gaps.h"
@@ -335,6 +337,11 @@ double usual_seconds(std::size_t facets) {
 }
 
 Repaired repair_input(const InputPlc& input, const RepairOptions& options, const Progress& progress) {
+  plc::check_input(input);
+  check_number("flatness", options.flatness);
+  check_number("gap", options.gap);
+  check_number("limit", options.limit);
+  check_number("time of repair", options.seconds);
   Repaired repaired = Repair(input, options, progress).run();
   report(progress, repair_stage, steps_of_repair, steps_of_repair);
   return repaired;

@@ -52,7 +52,8 @@ struct Repaired {
 /// surfaces overlap, their union is left. Vertices keep their places, except where gaps are closed or where facets
 /// almost touch.
 ///
-/// \throw InputError  coordinates that are not finite; no facet has an area, or none encloses anything
+/// \throw InputError  coordinates that are not finite; no facet has an area, or none encloses anything; an index or an
+///                    option is out of range
 Repaired repair_input(const plc::InputPlc& input, const RepairOptions& options = {}, const Progress& progress = {});
 
 }  // namespace ccdt::repair

@@ -10,10 +10,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/check_arguments.h"
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/geometry/integer_points.h"
 #include "engine/plc/build_plc.h"
+#include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/surface/working_mesh.h"
@@ -41,6 +43,7 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   if (!is_positive)
     throw InputError("the edge length for remeshing is not a positive number", place,
                      "give the edge length of the new surface, in the units of the input");
+  check_number("flatness", options.flatness);
   const bool is_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
   if (!is_angle)
     throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place,
@@ -257,6 +260,7 @@ void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Pr
 }
 
 plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
+  plc::check_input(input);
   check_options(input, options);
   const plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);

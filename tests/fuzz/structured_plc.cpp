@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "tests/fuzz/scene.h"
-
 namespace ccdt::fuzz {
 
 namespace {
@@ -61,12 +59,17 @@ void roughen(Random& random, plc::InputPlc& plc) {
 
 plc::InputPlc structured_plc(std::uint64_t seed) {
   Random random(seed);
+  plc::InputPlc plc = structured_plc(random);
+  plc.name = "structured " + std::to_string(seed);
+  return plc;
+}
+
+plc::InputPlc structured_plc(Random& random) {
   Scene scene(random);
   if (!scene.add(bodies[random.below(bodies.size())])) scene.add(box_body);
   const std::uint64_t tries = scene.chance(3) ? 0 : random.below(7);
   for (std::uint64_t i = 0; i < tries; ++i) scene.add(things[random.below(things.size())]);
   plc::InputPlc plc = scene.plc();
-  plc.name = "structured " + std::to_string(seed);
   if (scene.chance(4)) transform(random_squeeze(random), plc);
   if (tries > 0) return plc;
   if (scene.chance(2)) transform(random_turn(random), plc);

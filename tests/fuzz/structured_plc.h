@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "engine/plc/input.h"
+#include "tests/fuzz/scene.h"
 
 namespace ccdt::fuzz {
 
@@ -14,5 +15,8 @@ namespace ccdt::fuzz {
 /// Other bodies stay as they are: the parts in them touch each other exactly. After a rotation, some parts would only
 /// nearly touch, and the meaning of the input would be unclear.
 plc::InputPlc structured_plc(std::uint64_t seed);
+
+/// The same with any random numbers.
+plc::InputPlc structured_plc(Random& random);
 
 }  // namespace ccdt::fuzz

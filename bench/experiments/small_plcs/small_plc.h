@@ -119,16 +119,26 @@ std::string in_words(const SmallPlc& plc);
 /// Numbers that are the same on every machine. (The distributions of the standard library are not.)
 class Random {
  public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// \param choices  are used first, so that whoever changes one of them changes one choice; they must outlive this
+  explicit Random(std::uint64_t seed, std::span<const std::uint8_t> choices = {}) : engine_(seed), choices_(choices) {}
   /// 0 to `count` - 1.
-  std::uint64_t below(std::uint64_t count) { return engine_() % count; }
+  std::uint64_t below(std::uint64_t count) { return next(count > 256 ? 2 : 1) % count; }
   /// Both ends included.
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(below(static_cast<std::uint64_t>(high - low + 1)));
   }
 
  private:
+  std::uint64_t next(std::size_t bytes) {
+    if (choices_.size() < bytes) return engine_();
+    std::uint64_t number = 0;
+    for (const std::uint8_t byte : choices_.first(bytes)) number = 256 * number + byte;
+    choices_ = choices_.subspan(bytes);
+    return number;
+  }
+
   std::mt19937_64 engine_;
+  std::span<const std::uint8_t> choices_;
 };
 
 /// A way to make random PLCs.

@@ -1,0 +1,60 @@
+#include "engine/steps/check_options.h"
+
+#include <algorithm>
+#include <string>
+
+#include "engine/base/check_arguments.h"
+#include "engine/base/errors.h"
+
+namespace ccdt::steps {
+namespace {
+
+void check_numbers(const MeshOptions& options) {
+  check_number("least core", options.least_core);
+  check_number("grid scale", options.grid_scale, 0.01, 1e4);
+  check_number("number of thin tetrahedra", options.thin_tetrahedra, 1);
+  check_number("edge length", options.edge_length);
+  check_number("grading", options.grading);
+  check_number("flatness", options.flatness);
+  check_number("sphere factor", options.sphere_factor);
+  check_number("clearance", options.clearance);
+  check_number("ratio of radius and edge", options.radius_edge, 1);
+  check_number("target of dihedral angles", options.improve.target_dihedral, 0, 90);
+  check_number("target of r", options.improve.target_r, 1);
+  check_number("time of improvement", options.improve.time);
+  check_number("number of threads", options.threads, 0, 1024);
+}
+
+/// A program may turn any number into a value of an enumeration.
+void check_strategies(const MeshOptions& options) {
+  const auto check = [](auto... values) {
+    if ((name_of(values).empty() || ...))
+      throw InputError("a strategy is not one of its enumeration", {}, "use the named values");
+  };
+  check(options.lattice, options.protection, options.locator, options.delaunay, options.visibility, options.surface,
+        improvement_of(options), options.improve.objective, options.improve.boundary, options.improve.steiner);
+}
+
+void check_background(const BackgroundSizes& background) {
+  const auto require = [&](bool holds, const std::string& what) {
+    if (!holds)
+      throw InputError(what, {.file = background.name},
+                       "give each vertex of the background a place and the edge length there");
+  };
+  require(background.sizes.size() == background.vertices.size(), "the background has not one size for each vertex");
+  require(std::ranges::all_of(background.vertices, is_finite), "a vertex of the background is not finite");
+  require(std::ranges::all_of(background.sizes, [](double size) { return size > 0 && size <= largest_argument; }),
+          "a size is not a positive number");
+  require(are_below(background.vertices.size(), background.tetrahedra),
+          "a tetrahedron of the background has a corner that is not a vertex");
+}
+
+}  // namespace
+
+void check_options(const MeshOptions& options) {
+  check_numbers(options);
+  check_strategies(options);
+  check_background(options.background);
+}
+
+}  // namespace ccdt::steps
