@@ -95,7 +95,7 @@ void add_run(const Json& run, const std::string& program, Recording& recording) 
 
 }  // namespace
 
-Json parse_benchmark_json(const std::string& text) {
+std::string valid_json_of(const std::string& text) {
   std::string json;
   json.reserve(text.size());
   bool is_quoted = false;
@@ -114,7 +114,11 @@ Json parse_benchmark_json(const std::string& text) {
       is_quoted = !is_quoted;
     json += text[i++];
   }
-  return baselines::parse_json(json);
+  return json;
+}
+
+Json parse_benchmark_json(const std::string& text) {
+  return baselines::parse_json(valid_json_of(text));
 }
 
 std::string pattern_of(const std::set<std::string>& names) {

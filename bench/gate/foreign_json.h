@@ -9,8 +9,11 @@
 /// Recordings of other programs.
 namespace ccdt::gate {
 
-/// Parses the JSON of a benchmark. Google Benchmark writes NaN and Infinity, which JSON does not have; here they are
-/// the texts "NaN", "Infinity" and "-Infinity".
+/// The JSON of a benchmark. Google Benchmark writes NaN and Infinity, which JSON does not have; here they are the texts
+/// "NaN", "Infinity" and "-Infinity". Lines stay lines.
+std::string valid_json_of(const std::string& text);
+
+/// Parses it.
 ///
 /// \throw nlohmann::json::exception  it is not JSON, or a number is larger than any double
 bench::Json parse_benchmark_json(const std::string& text);

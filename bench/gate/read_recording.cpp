@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "baselines/parse_json.h"
 #include "baselines/process.h"
 #include "bench/gate/baseline.h"
 #include "bench/gate/foreign_json.h"
@@ -34,11 +35,13 @@ struct RunFile {
 };
 
 Json parse(const std::filesystem::path& file) {
-  const io::FileBytes bytes = io::read_whole_file(file);
+  io::FileBytes json = io::read_whole_file(file);
+  json.bytes = valid_json_of(json.bytes);  // errors count its bytes, and one more at its end
   try {
-    return parse_benchmark_json(bytes.bytes);
+    return baselines::parse_json(json.bytes);
   } catch (const Json::parse_error& error) {
-    throw InputError("a recording is JSON, and this is not", io::line_of_byte(bytes, error.byte), what_can_be_read);
+    throw InputError("a recording is JSON, and this is not",
+                     io::line_of_byte(json, std::min(error.byte, json.bytes.size())), what_can_be_read);
   } catch (const Json::exception& error) {
     throw InputError(std::string("a recording is JSON, and this cannot be read as such: ") + error.what(),
                      io::place_in(file.string()), what_can_be_read);

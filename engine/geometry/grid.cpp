@@ -31,6 +31,10 @@ DyadicGrid make_grid(std::span<const Point3> world) {
   if (half > 0) {
     const double mantissa = std::frexp(half, &exponent);  // half = mantissa * 2^exponent, mantissa in [0.5, 1)
     exponent += mantissa == 0.5 ? 0 : 1;                  // 2^exponent is the smallest power not below the extent
+  } else if (!world.empty()) {
+    // One point, which may be so far away that it is not a number of quanta of the usual size.
+    std::frexp(std::max({std::fabs(low.x), std::fabs(low.y), std::fabs(low.z)}), &exponent);
+    exponent = std::max(exponent - std::numeric_limits<double>::digits, 0);
   }
   // Below this, the quantum would be zero; such an input is effectively a point.
   exponent = std::max(exponent, std::numeric_limits<double>::min_exponent + 64);

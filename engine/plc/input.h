@@ -26,7 +26,8 @@ inline bool is_one_loop(const PolygonFacet& facet) {
 }
 
 /// The contents of a file, in its units, before any check. Indices are in range, lists that may be empty are otherwise
-/// complete, and seeds are finite. Readers ensure it, and functions of the library refuse anything else (`check_input`).
+/// complete, and seeds are finite. Readers ensure it, and functions of the library refuse anything else
+/// (`check_input`).
 struct InputPlc {
   /// How the file defines the inside.
   enum class Inside {

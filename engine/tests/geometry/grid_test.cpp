@@ -150,6 +150,10 @@ TEST(Grid, OnePointAndNoPointHaveAGrid) {
   EXPECT_NEAR(grid.to_world(grid.snap(one[0])).z, 7e-200, grid.unit * DyadicGrid::quantum);
   EXPECT_EQ(make_grid({}).unit, grid.unit);
   EXPECT_EQ(make_grid({}).origin, Point3{});
+  const std::vector<Point3> far = {{std::numeric_limits<double>::max(), -1e300, 1}};
+  EXPECT_EQ(make_grid(far).snap(far[0]), Point3{});
+  EXPECT_EQ(make_grid(far).origin.x, far[0].x);
+  EXPECT_EQ(make_grid(far).origin.y, far[0].y);
 }
 
 TEST(Grid, EqualCoordinatesStayEqualAndOrderIsKept) {

@@ -15,7 +15,18 @@ namespace {
 /// Mostly small whole numbers.
 double number(Bytes& bytes) {
   constexpr double huge = std::numeric_limits<double>::max(), tiny = std::numeric_limits<double>::denorm_min();
-  constexpr std::array odd = {std::nan(""), HUGE_VAL, -HUGE_VAL, huge, -huge, tiny, -1.0, -0.0, 1e-9, 1e9, 1e-300, 0.3};
+  constexpr std::array odd = {std::numeric_limits<double>::quiet_NaN(),
+                              HUGE_VAL,
+                              -HUGE_VAL,
+                              huge,
+                              -huge,
+                              tiny,
+                              -1.0,
+                              -0.0,
+                              1e-9,
+                              1e9,
+                              1e-300,
+                              0.3};
   const std::uint8_t byte = bytes.next();
   return byte < 5 * odd.size() && byte % 5 == 0 ? odd[byte / 5] : byte % 4;
 }
@@ -49,7 +60,8 @@ std::array<std::uint32_t, Size> indices(Bytes& bytes, std::size_t count) {
   std::array<std::uint32_t, Size> result;
   for (std::uint32_t& index : result) {
     const std::uint8_t byte = bytes.next();
-    index = byte == 255 || count == 0 ? 0xFFFFFFFFu - byte % 2 : static_cast<std::uint32_t>(byte % (count + byte / 254));
+    index =
+        byte == 255 || count == 0 ? 0xFFFFFFFFu - byte % 2 : static_cast<std::uint32_t>(byte % (count + byte / 254));
   }
   return result;
 }
@@ -99,9 +111,9 @@ MeshOptions options_of(Bytes& bytes) {
   change(bytes, options.delaunay);
   change(bytes, options.visibility);
   change(bytes, options.surface);
-  for (double* option : {&options.least_core, &options.grid_scale, &options.sharp_angle, &options.thin_tetrahedra,
-                         &options.edge_length, &options.grading, &options.flatness, &options.sphere_factor,
-                         &options.clearance, &options.radius_edge})
+  for (double* option :
+       {&options.least_core, &options.grid_scale, &options.sharp_angle, &options.thin_tetrahedra, &options.edge_length,
+        &options.grading, &options.flatness, &options.sphere_factor, &options.clearance, &options.radius_edge})
     change(bytes, *option);
   options.threads = bytes.pick(std::array{1u, 0u, 2u, 1000000000u, 0xFFFFFFFFu});
   Improvement improvement = Improvement::all;
@@ -166,10 +178,14 @@ void try_bytes(Bytes bytes) {
       find_faults(input_of(bytes), flatness, limited_to(2));
       break;
     }
-    case 2: return repair_anything(bytes);
-    case 3: return remesh(bytes);
-    case 4: return write_plc_somewhere(bytes);
-    case 5: return write_mesh_somewhere(bytes);
+    case 2:
+      return repair_anything(bytes);
+    case 3:
+      return remesh(bytes);
+    case 4:
+      return write_plc_somewhere(bytes);
+    case 5:
+      return write_mesh_somewhere(bytes);
     default: {
       const auto points = several(bytes, 8, [&] { return point(bytes); });
       flatness_for(points, number(bytes));

@@ -15,12 +15,14 @@
 #include "bench/sweep/chunks.h"
 #include "bench/sweep/spec.h"
 #include "bench/sweep/sweep_document.h"
+#include "engine/io/files.h"
 #include "reports/charts.h"
 #include "reports/report.h"
 #include "tests/fuzz/targets/target.h"
 #include "tests/fuzz/targets/temporary_folder.h"
 
-// All readers of JSON, and that of callgrind's profiles. The first byte chooses one: 'a' is the first line of the table.
+// All readers of JSON, and that of callgrind's profiles. The first byte chooses one: 'a' is the first line of the
+// table.
 
 namespace ccdt::fuzz {
 namespace {

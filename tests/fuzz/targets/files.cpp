@@ -2,7 +2,6 @@
 #include <tuple>
 #include <vector>
 
-#include "engine/io/formats.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
@@ -45,30 +44,29 @@ const std::vector<Door> doors = {
 };
 
 std::filesystem::path write_files(const Door& door, std::string_view contents) {
-  for (const char* ending : door.endings) {
-    const std::size_t end = ending == door.endings.back() ? contents.size() : contents.find('\0');
-    const std::string name = std::string("given") + ending;
-    if (end == 0)
+  for (std::size_t i = 0; i < door.endings.size(); ++i) {
+    const std::size_t end = i + 1 == door.endings.size() ? contents.size() : contents.find('\0');
+    const std::string name = std::string("given") + door.endings[i];
+    if (const std::string_view part = contents.substr(0, end); part.empty())
       std::filesystem::remove(temporary_folder().path() / name);
     else
-      temporary_folder().write(name, contents.substr(0, end));
+      temporary_folder().write(name, part);
     contents = end >= contents.size() ? std::string_view() : contents.substr(end + 1);
   }
   return temporary_folder().path() / (std::string("given") + door.endings.front());
 }
 
-/// Do two inputs say the same? Only some formats hold markers. The numbers of facets only give their order.
+/// Do two inputs say the same? Only some formats hold markers. Some formats keep triangles and other facets apart.
 bool are_same(const InputPlc& a, const InputPlc& b, bool has_markers) {
-  const auto facet_of = [&](const io::FacetLoop& f) {
-    std::vector<std::vector<std::uint32_t>> polygons = {{f.corners.begin(), f.corners.end()}};
-    if (f.polygon) polygons = f.polygon->polygons;
-    return std::tuple(polygons, f.polygon ? f.polygon->holes : std::vector<Point3>(), has_markers ? f.marker : 0);
+  const auto facet_of = [&](const plc::PolygonFacet& f) {
+    return std::tuple(f.polygons, f.holes, has_markers ? f.marker : 0);
   };
   const auto seed_of = [](const InputPlc::RegionSeed& r) { return std::tuple(r.seed, r.attribute, r.max_volume); };
-  return a.inside == b.inside && a.vertices == b.vertices && a.segments == b.segments &&
+  return a.inside == b.inside && a.vertices == b.vertices && a.triangles == b.triangles &&
+         (!has_markers || a.triangle_markers == b.triangle_markers) && a.segments == b.segments &&
          a.segment_markers == b.segment_markers && a.holes == b.holes &&
          std::ranges::equal(a.regions, b.regions, {}, seed_of, seed_of) &&
-         std::ranges::equal(io::facets_in_order(a), io::facets_in_order(b), {}, facet_of, facet_of);
+         std::ranges::equal(a.polygon_facets, b.polygon_facets, {}, facet_of, facet_of);
 }
 
 /// STL has single precision, so what was read may change once.
@@ -109,9 +107,12 @@ void try_mesh(const std::filesystem::path& file) {
 void try_file(const Door& door, std::string_view contents) {
   const std::filesystem::path file = write_files(door, contents);
   switch (door.kind) {
-    case Kind::plc: return try_plc(file, door.endings.front());
-    case Kind::mesh: return try_mesh(file);
-    case Kind::sizes: io::read_sizes(file);
+    case Kind::plc:
+      return try_plc(file, door.endings.front());
+    case Kind::mesh:
+      return try_mesh(file);
+    case Kind::sizes:
+      io::read_sizes(file);
   }
 }
 

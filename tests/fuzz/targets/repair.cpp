@@ -26,14 +26,29 @@ class SmallInput {
  private:
   void obey() {
     switch (bytes_.below(8)) {
-      case 0: input_.vertices.push_back(point()); break;
-      case 1: input_.vertices.push_back(near(some_vertex())); break;
-      case 2: facet(corners(3)); break;
-      case 3: facet(corners(4 + bytes_.below(3))); break;
-      case 4: tetrahedron(corners(4)); break;
-      case 5: box(point(), point()); break;
-      case 6: segment(corners(2)); break;
-      default: seed(point());
+      case 0:
+        input_.vertices.push_back(point());
+        break;
+      case 1:
+        input_.vertices.push_back(near(some_vertex()));
+        break;
+      case 2:
+        facet(corners(3));
+        break;
+      case 3:
+        facet(corners(4 + bytes_.below(3)));
+        break;
+      case 4:
+        tetrahedron(corners(4));
+        break;
+      case 5:
+        box(point(), point());
+        break;
+      case 6:
+        segment(corners(2));
+        break;
+      default:
+        seed(point());
     }
   }
 
@@ -69,16 +84,19 @@ class SmallInput {
     }
   }
   void tetrahedron(const Corners& c) {
-    for (const Corners& face : {Corners{c[0], c[2], c[1]}, {c[0], c[1], c[3]}, {c[1], c[2], c[3]}, {c[2], c[0], c[3]}})
-      facet(face);
+    facet({c[0], c[2], c[1]});
+    facet({c[0], c[1], c[3]});
+    facet({c[1], c[2], c[3]});
+    facet({c[2], c[0], c[3]});
   }
   void box(const Point3& a, const Point3& b) {
     const auto first = static_cast<std::uint32_t>(input_.vertices.size());
-    for (int i = 0; i < 8; ++i)
-      input_.vertices.push_back({i & 1 ? b.x : a.x, i & 2 ? b.y : a.y, i & 4 ? b.z : a.z});
-    for (const auto& [p, q, r, s] : {std::array{0u, 2u, 3u, 1u}, {4u, 5u, 7u, 6u}, {0u, 1u, 5u, 4u}, {2u, 6u, 7u, 3u},
-                                     {0u, 4u, 6u, 2u}, {1u, 3u, 7u, 5u}})
-      facet({first + p, first + q, first + r, first + s});
+    for (const double z : {a.z, b.z})
+      for (const double y : {a.y, b.y})
+        for (const double x : {a.x, b.x}) input_.vertices.push_back({x, y, z});
+    const std::vector<Corners> sides = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const Corners& s : sides) facet({first + s[0], first + s[1], first + s[2], first + s[3]});
   }
   void segment(const Corners& c) { input_.segments.push_back({c[0], c[1]}); }
   void seed(const Point3& p) {
