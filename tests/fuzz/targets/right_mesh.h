@@ -37,7 +37,6 @@ inline void require_right_mesh(const InputPlc& input, const MeshOptions& options
   const std::optional<InputPlc> flat = plc::triangulate_warped_facets(input);
   verify::VerifyOptions wanted;
   if (options.improve.boundary == BoundaryRule::slide) wanted.boundary = verify::VerifyOptions::Boundary::slide;
-  if (options.surface == SurfaceRule::remesh) wanted.surface = verify::VerifyOptions::Surface::own;
   for (const verify::Check& check : verify::verify(flat ? *flat : input, result.mesh, wanted).checks)
     require(!check.required || check.failed == 0,
             "a wrong mesh: " + check.name + ": " + (check.examples.empty() ? "" : check.examples.front()));
