@@ -124,8 +124,9 @@ TEST(WritePlc, RefusesWhatTheFormatCannotHold) {
   expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets[0].polygons.push_back({0}); }), "a.smesh",
                       "several polygons");
   expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets.clear(); }), "a.stl", "too large");
-  expect_not_writable(with([](plc::InputPlc& p) { p.polygon_facets.clear(), p.triangles.resize(1); }), "a.stl",
-                      "no facet has");
+  expect_not_writable(
+      with([](plc::InputPlc& p) { p.polygon_facets.clear(), p.triangles.resize(1), p.triangle_numbers.resize(1); }),
+      "a.stl", "no facet has");
   expect_not_writable(plc::InputPlc(), "a.off", "no vertices");
   expect_not_writable(awkward_surface(), "a.step", "unknown ending '.step'");
 }
