@@ -1,5 +1,8 @@
 #include "engine/repair/orient_shells.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -34,7 +37,69 @@ std::vector<std::uint32_t> spread(std::uint32_t first, const plc::EdgeTable& edg
   return part;
 }
 
+/// A part without open edges, and without edges of more than two triangles.
+struct ClosedPart {
+  std::vector<std::uint32_t> triangles;
+  double volume;  ///< negative if the normals point inward
+};
+
+std::vector<ClosedPart> find_closed_parts(const OrientedSurface& surface) {
+  const auto& [points, triangles] = surface;
+  const plc::EdgeTable edges = plc::make_edge_table(triangles);
+  std::vector<Way> ways(triangles.size(), Way::unknown);
+  std::vector<ClosedPart> parts;
+  const auto is_whole = [&](std::uint32_t t) {
+    return std::ranges::all_of(edges.edges_of[t], [&](std::uint32_t e) { return edges.sides_around(e).size() == 2; });
+  };
+  for (std::uint32_t first = 0; first < triangles.size(); ++first) {
+    if (ways[first] != Way::unknown) continue;
+    ClosedPart part{spread(first, edges, ways), 0};
+    if (!std::ranges::all_of(part.triangles, is_whole)) continue;
+    const Point3& origin = points[triangles[first][0]];
+    for (const std::uint32_t t : part.triangles) {
+      const auto [a, b, c] = plc::points_of(points, triangles[t]);
+      part.volume += dot(a - origin, cross(b - origin, c - origin)) / 6;
+    }
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Is one of a part's outermost vertices outside all other triangles?
+bool sticks_out(const ClosedPart& part, const OrientedSurface& surface) {
+  const auto& [points, triangles] = surface;
+  std::vector<bool> is_own(triangles.size(), false);
+  std::array<Point3, 6> outermost;
+  outermost.fill(points[triangles[part.triangles[0]][0]]);
+  for (const std::uint32_t t : part.triangles) {
+    is_own[t] = true;
+    for (const VertexId v : triangles[t])
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto before = [&](const Point3& a, const Point3& b) { return as_array(a)[axis] < as_array(b)[axis]; };
+        outermost[axis] = std::min(outermost[axis], points[v], before);
+        outermost[3 + axis] = std::max(outermost[3 + axis], points[v], before);
+      }
+  }
+  OrientedSurface others{points, {}};
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (!is_own[t]) others.triangles.push_back(triangles[t]);
+  return std::ranges::any_of(outermost, [&](const Point3& p) { return std::fabs(winding_number(p, others)) < 0.5; });
+}
+
 }  // namespace
+
+void turn_outward(OrientedSurface& surface) {
+  std::vector<ClosedPart> parts = find_closed_parts(surface);
+  const auto turn = [&](ClosedPart& part) {
+    part.volume = -part.volume;
+    for (const std::uint32_t t : part.triangles) std::swap(surface.triangles[t][1], surface.triangles[t][2]);
+  };
+  double volume = 0;
+  for (const ClosedPart& part : parts) volume += part.volume;
+  if (volume < 0) std::ranges::for_each(parts, turn);
+  for (ClosedPart& part : parts)
+    if (part.volume < 0 && sticks_out(part, surface)) turn(part);
+}
 
 void orient_shells(plc::UncheckedPlc& soup) {
   const plc::EdgeTable edges = plc::make_edge_table(soup.triangles.corners);

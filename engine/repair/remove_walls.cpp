@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 
 namespace ccdt::repair {
 namespace {
@@ -55,7 +56,9 @@ std::size_t remove_walls(plc::UncheckedPlc& soup, const OrientedSurface& given, 
   for (const plc::Facet& facet : plc.facets) {
     const bool is_inner = plc.regions[facet.above].inside && plc.regions[facet.below].inside;
     const long above = times[facet.above], below = times[facet.below];
-    if (is_inner && above != below && above != 0 && below != 0) {
+    // Two solids that touch, with nothing else there, stay apart.
+    const bool is_between_two = above == below && std::abs(above) == 1;
+    if (is_inner && above != 0 && below != 0 && !is_between_two) {
       removed += facet.triangle_count;
       continue;
     }

@@ -8,8 +8,7 @@
 namespace ccdt::repair {
 
 /// Removes the facets inside the domain that divide parts with different winding numbers: there, two solids overlap,
-/// and their union is left. Facets between parts with the same number stay, such as those between two solids that
-/// touch.
+/// and their union is left. Facets within such an overlap go, too. Facets between two solids that touch stay.
 ///
 /// \param soup    without crossings
 /// \param given   the surface before it was cut at its crossings

@@ -210,12 +210,13 @@ class Repair {
   double tolerance() const { return plc::tolerance_of(parts_.plc, options_.flatness); }
 
   CutCounts cut_and_unite(bool weld_everywhere) {
-    const OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
+    OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
     const CutCounts cuts = cut_crossings(parts_, {reach_, weld_everywhere}, progress_);
     is_welded_ = is_welded_ && cuts.welded;
     add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
     check_something_is_enclosed();
     if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input_)) return cuts;
+    repair::turn_outward(surface);
     try {
       add("walls", "facets removed from the inside of the union", remove_walls(parts_, surface, soup_.input, options_));
     } catch (const InputError&) {
