@@ -12,6 +12,7 @@
 #include "bench/run/identity.h"
 #include "bench/run/json.h"
 #include "bench/run/median_interval.h"
+#include "engine/base/digits.h"
 #include "engine/io/files.h"
 #include "models/solids.h"
 #include "reports/result_text.h"
@@ -125,10 +126,14 @@ std::string command_of(const experiments::KnownExperiment& known, const Reproduc
     for (std::size_t i = 0; i < values.size(); ++i)
       text += (i == 0 ? " " + std::string(name) + " " : std::string(1, separator)) + values[i];
   };
-  if (options.runs != experiments::ExperimentOptions().runs) text += " --runs " + std::to_string(options.runs);
+  const experiments::ExperimentOptions usual;
+  if (options.runs != usual.runs) text += " --runs " + std::to_string(options.runs);
+  if (options.limits.seconds != usual.limits.seconds) text += " --timeout " + digits(options.limits.seconds);
+  if (command.memory_gibibytes > 0) text += " --memory-limit " + digits(command.memory_gibibytes);
   add_list("--models", options.models, ',');
   add_list("--beside", beside, ',');
   add_list("--input", inputs, ' ');
+  if (!options.corpus.empty()) text += " --corpus " + in_folder(options.corpus);
   return text + " -o .";
 }
 
@@ -179,6 +184,7 @@ bool run(ReproduceCommand& command) {
   options.tetrahedra = tetrahedra_of(options.scale);
   options.program = own_program();
   options.folder = std::filesystem::absolute(command.folder).lexically_normal();
+  if (!options.corpus.empty()) options.corpus = std::filesystem::absolute(options.corpus).lexically_normal();
   options.limits.memory_bytes = static_cast<std::uint64_t>(command.memory_gibibytes * bytes_per_gibibyte);
   std::filesystem::create_directories(options.folder);
   const FolderLock lock(options.folder);
@@ -249,6 +255,9 @@ void add_what_to_measure(CLI::App& verb, ReproduceCommand& command) {
       ->check(one_of(models));
   verb.add_option("--input", command.options.inputs, "files to measure as well (not in table1 and the figures)")
       ->check(CLI::ExistingFile);
+  verb.add_option("--corpus", command.options.corpus,
+                  "folder with a corpus of parts, made by tools/corpus (robustness)")
+      ->check(CLI::ExistingDirectory);
   verb.add_option("--beside", command.beside,
                   "other meshers to measure, or .json files that describe them, separated by commas; default: all of "
                   "this build")

@@ -46,6 +46,7 @@ struct ExperimentOptions {
   std::vector<std::string> models;                 ///< models to measure; empty: all of the experiment
   std::optional<std::vector<std::string>> beside;  ///< other meshers to measure; none: all of this build
   std::vector<std::filesystem::path> inputs;  ///< files in the folder to measure as well, if the experiment takes files
+  std::filesystem::path corpus = {};          ///< a folder that tools/corpus made, if the experiment takes one
   baselines::Limits limits{.seconds = 600, .memory_bytes = 0};  ///< of each run
 };
 

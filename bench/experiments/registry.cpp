@@ -9,6 +9,7 @@
 #include "bench/experiments/existence_experiments.h"
 #include "bench/experiments/min_sphere.h"
 #include "bench/experiments/quality_experiments.h"
+#include "bench/experiments/robustness.h"
 #include "bench/experiments/speed.h"
 #include "bench/experiments/surfaces.h"
 #include "bench/experiments/timing_experiments.h"
@@ -112,6 +113,8 @@ std::vector<KnownExperiment> all_experiments() {
        quality("quality", names_of_paper_models())},
       {"speed", "Speed: how fast, on how many threads, and at what quality", "6",
        "seconds, memory and quality beside other meshers, and scaling with threads", false, false, measure_speed},
+      {"robustness", "Robustness: which real parts does each mesher mesh?", "2, 6",
+       "how each mesher ends on every part of a corpus (--corpus)", false, false, measure_robustness},
       {"lattice-fit", "Lattice fit: how near to the surface should lattice points be?", "3",
        "many settings of --sphere-factor and --clearance", false, false,
        study([](const auto&) { return lattice_fit_plan(); })},

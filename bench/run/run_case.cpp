@@ -76,8 +76,9 @@ RunRecord record_of(const RunPlace& place, const Case& asked, const std::filesys
 /// Does the run make a new surface, against which its mesh is then verified?
 bool has_new_surface(const Case& asked) {
   const auto surface = std::ranges::find(asked.options, "--surface");
-  return asked.verify && surface != asked.options.end() && surface + 1 != asked.options.end() &&
-         *(surface + 1) == "remesh";
+  const bool remesh =
+      surface != asked.options.end() && surface + 1 != asked.options.end() && *(surface + 1) == "remesh";
+  return asked.verify && (remesh || std::ranges::find(asked.options, "--repair") != asked.options.end());
 }
 
 RunFiles files_of(const Case& asked, const Scratch& scratch) {

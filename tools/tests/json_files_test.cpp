@@ -191,6 +191,12 @@ void EveryVerb::reproduce() {
        std::string(with_tetgen ? ",tetgen" : ""));
   describe("refusing", "exit 6");
   call("reproduce theorem1 -o reproduction --scale 500 --models piston --beside refusing.json --mixed");
+  std::filesystem::create_directory(work() / "corpus");
+  write("corpus/corpus.json", R"({"schema": "ccdt.corpus/1", "name": "own", "what": "a torus", "files": [{"file":
+    "../part.off", "package": "parts", "version": "1", "path": "part.off", "license": "MIT", "sha256": ")" +
+                                  std::string(64, '0') + R"(", "valid": true, "faults": []}],
+    "left_out": [{"package": "parts", "path": "part.step", "why": "gmsh cannot mesh it"}]})");
+  call("reproduce robustness -o reproduction --corpus corpus --beside refusing.json --mixed");
   call("report reproduction");
   call("report reproduction reproduction -o comparison");
 }
