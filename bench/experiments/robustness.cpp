@@ -23,7 +23,7 @@ const std::vector<std::string> robustness_definitions = {
     "Each mesher makes one mesh of each part, with its defaults: the inside gets vertices.",
     "Valid: ccdt check finds no error. Not valid: it finds some. Unreadable: the file is broken.",
     "Right: there is a mesh, and the exact verifier finds it right. Wrong: it does not.",
-    "Not verified: there is a mesh, but nothing valid to compare it with, or the verifier reached its limit.",
+    "Not verified: there is a mesh, but the verifier reached its limit of time.",
     "ccdt --repair: the input is repaired first, within the usual limits, and the mesh is compared with the repaired "
     "one.",
     "Other kinds are those of ccdt.run/1: invalid_input, limit, refused, timeout, out_of_memory, crashed.",

@@ -100,7 +100,7 @@ TEST_F(Robustness, CountsHowEveryMesherEndsAndGoesOnWhereItWas) {
       {"hanging, not valid, timeout", 2},
       {"hanging, unreadable, invalid_input", 1},
       {"wrong, valid, wrong", 2},
-      {"wrong, not valid, not_verified", 2},
+      {"wrong, not valid, wrong", 2},
       {"wrong, unreadable, invalid_input", 1},
   };
   EXPECT_EQ(outcomes(), expected);
