@@ -24,8 +24,7 @@ const std::vector<std::string> robustness_definitions = {
     "Valid: ccdt check finds no error. Not valid: it finds some. Unreadable: the file is broken.",
     "Right: there is a mesh, and the exact verifier finds it right. Wrong: it does not.",
     "Not verified: there is a mesh, but the verifier reached its limit of time.",
-    "ccdt --repair: the input is repaired first, within the usual limits, and the mesh is compared with the repaired "
-    "one.",
+    "ccdt --repair: the input is repaired first, within the usual limits; the reference is the repaired input.",
     "Other kinds are those of ccdt.run/1: invalid_input, limit, refused, timeout, out_of_memory, crashed.",
     "All files are read by ccdt, so an unreadable one is refused for every mesher.",
     "Seconds: meshing alone. Worst: failures first, the most serious ones first; then the longest times.",
