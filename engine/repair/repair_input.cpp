@@ -19,6 +19,7 @@
 #include "engine/repair/cut_crossings.h"
 #include "engine/repair/equal_triangles.h"
 #include "engine/repair/fill_holes.h"
+#include "engine/repair/find_welds.h"
 #include "engine/repair/gather_soup.h"
 #include "engine/repair/orient_shells.h"
 #include "engine/repair/remove_flaps.h"
@@ -213,6 +214,7 @@ class Repair {
     OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
     const CutCounts cuts = cut_crossings(parts_, {reach_, weld_everywhere}, progress_);
     is_welded_ = is_welded_ && cuts.welded;
+    has_cuts_ = has_cuts_ || cuts.pairs > 0;
     add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
     check_something_is_enclosed();
     if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input_)) return cuts;
@@ -239,10 +241,28 @@ class Repair {
     }
   }
 
-  enum class Success : std::uint8_t { not_valid, valid, welded };
+  enum class Success : std::uint8_t {
+    not_valid,
+    valid,   ///< but welds did not end, and some things almost touch
+    welded,  ///< but features are left that only larger welds join
+    clean
+  };
+
+  /// Features that are far smaller than the edges beside them, as cuts leave them, can keep the mesher from protecting
+  /// these edges.
+  Success success(bool is_valid) const {
+    if (!is_valid) return Success::not_valid;
+    if (!has_cuts_) return Success::clean;
+    if (!is_welded_) return Success::valid;
+    const std::vector<std::uint8_t> everywhere(parts_.plc.vertices.size(), 1);
+    const Welds left = find_welds(parts_.plc.vertices, parts_.triangles, everywhere, {.edges = largest_weld()});
+    return left.empty() ? Success::clean : Success::welded;
+  }
+
+  double largest_weld() const { return limits_.weld / 2; }
 
   /// Things that should touch may be farther apart than facets from being flat: as far as a file with few digits
-  /// rounds. So larger welds are tried where smaller ones do not end, or do not lead to a valid surface. Of equal
+  /// rounds. So larger welds are tried where smaller ones do not lead to a clean surface. Of equal
   /// successes the first counts: larger welds change more.
   void repair_with_larger_welds() {
     const auto state = [&] { return std::tie(parts_, lids_, left_open_, farthest_, result_.steps); };
@@ -250,15 +270,14 @@ class Repair {
     const State before = state();
     std::optional<std::pair<Success, State>> best;
     try {
-      for (const double reach : {tolerance(), limits_.weld / 8, limits_.weld / 2}) {
+      for (const double reach : {tolerance(), largest_weld() / 4, largest_weld()}) {
         if (reach < reach_) continue;
         if (reach_ > 0) state() = before;
         reach_ = reach;
-        is_welded_ = true;
-        const bool is_valid = is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0;
-        const Success success = !is_valid ? Success::not_valid : is_welded_ ? Success::welded : Success::valid;
-        if (success == Success::welded) return;
-        if (!best || best->first < success) best = {success, state()};
+        is_welded_ = true, has_cuts_ = false;
+        const Success now = success(is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0);
+        if (now == Success::clean) return;
+        if (!best || best->first < now) best = {now, state()};
         if (is_given_open_) break;
       }
     } catch (const OutOfTime&) {
@@ -321,8 +340,9 @@ class Repair {
   plc::UncheckedPlc& parts_;  // of the soup
   const plc::UncheckedPlc given_;
   Limits limits_;
-  double reach_ = 0;            // of welds
-  bool is_welded_ = true;       // what almost touched
+  double reach_ = 0;       // of welds
+  bool is_welded_ = true;  // what almost touched
+  bool has_cuts_ = false;
   bool is_given_open_ = false;  // has holes before anything is cut that must stay open
   std::vector<Lid> lids_;
   std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last

@@ -10,11 +10,11 @@ namespace {
 
 using namespace fuzz;
 
-constexpr std::uint64_t seeds = is_sanitized ? 100 : 3000;
+constexpr std::uint64_t first = 1000, seeds = is_sanitized ? 100 : 2000;
 
 TEST(NearDuplicates, HaveOneMeaningForCheckMeshVerifyAndRepair) {
   std::uint64_t valid = 0, repaired = 0, wrong_copies = 0;
-  for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+  for (std::uint64_t seed = first; seed < first + seeds; ++seed) {
     const Meaning meaning = find_meaning(near_duplicates(seed));
     EXPECT_EQ(meaning.disagreement, "") << "seed " << seed;
     valid += meaning.is_valid;
@@ -23,7 +23,7 @@ TEST(NearDuplicates, HaveOneMeaningForCheckMeshVerifyAndRepair) {
   }
   EXPECT_GT(30 * valid, seeds);
   EXPECT_GT(3 * repaired, seeds);
-  EXPECT_LT(30 * wrong_copies, repaired) << "features as small as rounding may be left";
+  EXPECT_LT(100 * wrong_copies, repaired) << "features as small as rounding may be left";
 }
 
 TEST(NearDuplicates, ThatHaveFailedHaveOneMeaning) {
