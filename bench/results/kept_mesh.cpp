@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -27,7 +28,7 @@ std::string deflated(const void* data, std::size_t size) {
   std::string bytes(length, '\0');
   if (compress2(reinterpret_cast<Bytef*>(bytes.data()), &length, static_cast<const Bytef*>(data), size,
                 Z_BEST_COMPRESSION) != Z_OK)
-    throw std::runtime_error("zlib could not deflate " + std::to_string(size) + " bytes");
+    throw std::bad_alloc();  // nothing else can go wrong if there is enough room
   bytes.resize(length);
   return bytes;
 }
@@ -56,6 +57,7 @@ std::string inflated(const std::string& bytes) {
       text.resize(length);
       return text;
     }
+    if (code == Z_MEM_ERROR) throw std::bad_alloc();
     if (code != Z_BUF_ERROR || room > std::numeric_limits<std::uint32_t>::max())
       throw std::runtime_error("zlib could not inflate " + std::to_string(bytes.size()) + " bytes");
   }

@@ -72,6 +72,7 @@ bool decompress_block(std::string_view compressed, std::span<char> bytes) {
   const int status =
       uncompress(reinterpret_cast<Bytef*>(bytes.data()), &found, reinterpret_cast<const Bytef*>(compressed.data()),
                  static_cast<uLong>(compressed.size()));
+  if (status == Z_MEM_ERROR) throw std::bad_alloc();
   return status == Z_OK && found == bytes.size();
 }
 
