@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/tests/experiment_json.h"
 #include "tools/tests/program.h"
 
 namespace ccdt {
@@ -61,24 +62,14 @@ class HostileTexts : public Program {
                          {"data", false},
                          {"columns", columns},
                          {"rows", rows}};
-    const Texts experiment = {{"schema", "ccdt.experiment/1"},
-                              {"name", "fig7"},
-                              {"title", hostile_texts()[1] + "\n# " + hostile_texts()[2]},
-                              {"section", hostile_texts()[0]},
-                              {"command", hostile_texts()[5]},
-                              {"scale", "quick"},
-                              {"tetrahedra", 8000},
-                              {"runs", 1},
-                              {"confidence", 0.95},
-                              {"limits", {{"seconds", 600}, {"memory_bytes", 0}}},
-                              {"good", true},
-                              {"definitions", hostile_texts()},
-                              {"findings", hostile_texts()},
-                              {"problems", hostile_texts()},
-                              {"tables", {table}},
-                              {"meshes", Texts::array()},
-                              {"raw_files", Texts::array()},
-                              {"environment", Texts::parse(text_of(work() / "run.json"))["environment"]}};
+    Json experiment = empty_experiment(Json::parse(text_of(work() / "run.json"))["environment"]);
+    experiment.update({{"title", hostile_texts()[1] + "\n# " + hostile_texts()[2]},
+                       {"section", hostile_texts()[0]},
+                       {"command", hostile_texts()[5]},
+                       {"definitions", hostile_texts()},
+                       {"findings", hostile_texts()},
+                       {"problems", hostile_texts()},
+                       {"tables", Json::array({Json::parse(table.dump())})}});
     write("D/fig7.json", experiment.dump());
     const Outcome outcome = run("report D");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;

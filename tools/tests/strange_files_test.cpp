@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/tests/experiment_json.h"
 #include "tools/tests/program.h"
 
 namespace ccdt {
@@ -19,24 +20,7 @@ class StrangeFiles : public Program {
   }
   /// An experiment whose members may be replaced.
   void write_experiment(const std::string& file, const nlohmann::json& changes) const {
-    nlohmann::json json = {{"schema", "ccdt.experiment/1"},
-                           {"name", "fig7"},
-                           {"title", "Fig. 7"},
-                           {"section", "6"},
-                           {"command", "ccdt reproduce fig7"},
-                           {"scale", "quick"},
-                           {"tetrahedra", 8000},
-                           {"runs", 1},
-                           {"confidence", 0.95},
-                           {"limits", {{"seconds", 600}, {"memory_bytes", 0}}},
-                           {"good", true},
-                           {"definitions", nlohmann::json::array()},
-                           {"findings", nlohmann::json::array()},
-                           {"problems", nlohmann::json::array()},
-                           {"tables", nlohmann::json::array()},
-                           {"meshes", nlohmann::json::array()},
-                           {"raw_files", nlohmann::json::array()},
-                           {"environment", environment()}};
+    Json json = empty_experiment(environment());
     json.update(changes);
     write(file, json.dump());
   }
