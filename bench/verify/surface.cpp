@@ -368,7 +368,7 @@ Tolerances narrowed(const Tolerances& given, double part) {
 }
 
 Tolerances exact_contacts(const Tolerances& given, double part) {
-  const double rounding = (part > 0 ? 1e-12 : 1e-15) * given.box;  // of coordinates as doubles
+  const double rounding = part > 0 ? 1e-12 * given.box + given.rounding : 1e-15 * given.box;
   return {given.box, rounding, rounding, part > 0 ? narrowed(given, part).flat : rounding, rounding, true};
 }
 
