@@ -2,8 +2,7 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <bit>
+#include <boost/locale/utf.hpp>
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
@@ -35,27 +34,7 @@ const char* code_of(Tone tone) {
   return "\033[33m";
 }
 
-/// A character in UTF-8.
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t length = 1;  ///< in bytes
-  bool is_valid = false;
-};
-
-/// The first character of a text. A byte that begins none is one that is not valid.
-Character first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const auto ones = static_cast<std::size_t>(std::countl_one(byte(0)));
-  if (ones == 0) return {byte(0), 1, true};
-  if (ones == 1 || ones > 4 || text.size() < ones) return {byte(0)};
-  Character character{byte(0) & (0x7Fu >> ones), ones, true};
-  for (std::size_t i = 1; i < ones; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return {byte(0)};
-    character.code = character.code << 6 | (byte(i) & 0x3F);
-  }
-  static constexpr std::array<std::uint32_t, 5> least = {0, 0, 0x80, 0x800, 0x10000};  // else it is too long
-  return character.code >= least[ones] ? character : Character{byte(0)};
-}
+using Utf8 = boost::locale::utf::utf_traits<char>;
 
 /// Does the character act on a terminal instead of being shown: by moving the cursor, or by turning the direction of
 /// the text around it?
@@ -72,15 +51,19 @@ std::string printable(std::string_view text) {
   std::string safe;
   safe.reserve(text.size());
   while (!text.empty()) {
-    const Character character = first_character(text);
-    if (character.is_valid && !is_control(character.code)) {
-      safe += text.substr(0, character.length);
+    auto next = text.begin();
+    const auto code = Utf8::decode(next, text.end());
+    const bool is_valid = code != boost::locale::utf::illegal && code != boost::locale::utf::incomplete;
+    const std::size_t length = is_valid ? static_cast<std::size_t>(next - text.begin()) : 1;
+    if (is_valid && !is_control(code)) {
+      safe += text.substr(0, length);
     } else {
       char digits[8];
-      std::snprintf(digits, sizeof digits, character.is_valid ? "\\u%04x" : "\\x%02x", character.code);
+      std::snprintf(digits, sizeof digits, is_valid ? "\\u%04x" : "\\x%02x",
+                    is_valid ? unsigned{code} : unsigned{static_cast<unsigned char>(text[0])});
       safe += digits;
     }
-    text.remove_prefix(character.length);
+    text.remove_prefix(length);
   }
   return safe;
 }

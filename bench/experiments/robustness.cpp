@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "baselines/mesher.h"
+#include "engine/base/box.h"
 #include "engine/base/errors.h"
 #include "engine/io/plc_files.h"
 
@@ -201,20 +202,6 @@ void add_part(const ExperimentOptions& options, const CorpusPart& part, std::vec
   for (const std::string& file : described_meshers(options)) add(file);
 }
 
-double largest_extent(const std::filesystem::path& file) {
-  std::array<double, 3> low = {}, high = {};
-  bool is_first = true;
-  for (const Point3& p : io::read_plc(file).vertices) {
-    const std::array<double, 3> at = {p.x, p.y, p.z};
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      low[i] = is_first ? at[i] : std::min(low[i], at[i]);
-      high[i] = is_first ? at[i] : std::max(high[i], at[i]);
-    }
-    is_first = false;
-  }
-  return std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-}
-
 }  // namespace
 
 ExperimentResult robustness_result(std::span<const RobustnessRow> rows) {
@@ -241,7 +228,7 @@ ExperimentResult measure_robustness(const ExperimentOptions& options, bench::Run
   for (const CorpusPart& part : parts) add_part(options, part, rows);
   measure_rows(runner, rows);
   for (RobustnessRow& row : rows)
-    if (row.measured.first.repaired) row.extent = largest_extent(row.measured.asked.input);
+    if (row.measured.first.repaired) row.extent = largest_extent(io::read_plc(row.measured.asked.input).vertices);
   return robustness_result(rows);
 }
 

@@ -47,19 +47,13 @@ Loop rotated(Loop loop) {
   return loop;
 }
 
-}  // namespace
-
-void drop_bridge_walls(plc::InputPlc& surface) {
-  if (surface.inside != plc::InputPlc::Inside::even_odd) return;
-  const std::set<Edge> bridges = find_bridges(surface);
-  if (bridges.empty()) return;
+/// Pairs of facets that stand on a bridge, by their places in the list.
+std::vector<std::array<std::size_t, 2>> find_walls(const plc::InputPlc& surface, const std::set<Edge>& bridges) {
+  std::vector<std::array<std::size_t, 2>> walls;
   std::map<Loop, std::size_t> unpaired;
-  std::vector<bool> dropped(surface.polygon_facets.size(), false);
-  std::string numbers;
-  for (std::size_t i = 0; i < dropped.size(); ++i) {
-    const plc::PolygonFacet& facet = surface.polygon_facets[i];
-    if (!plc::is_one_loop(facet)) continue;
-    Loop loop = loop_of(surface, facet);
+  for (std::size_t i = 0; i < surface.polygon_facets.size(); ++i) {
+    if (!plc::is_one_loop(surface.polygon_facets[i])) continue;
+    Loop loop = loop_of(surface, surface.polygon_facets[i]);
     const std::set<Edge> edges = edges_of(loop);
     const auto is_on_bridge = [&](const Edge& e) {
       return bridges.contains(e) && !edges.contains({e.second, e.first});
@@ -67,19 +61,32 @@ void drop_bridge_walls(plc::InputPlc& surface) {
     if (std::ranges::none_of(edges, is_on_bridge)) continue;
     const Loop there = rotated(loop);
     std::ranges::reverse(loop);
-    const auto back = unpaired.find(rotated(loop));
-    if (back == unpaired.end()) {
+    if (const auto back = unpaired.find(rotated(loop)); back != unpaired.end()) {
+      walls.push_back({back->second, i});
+      unpaired.erase(back);
+    } else {
       unpaired.insert({there, i});
-      continue;
     }
-    dropped[i] = dropped[back->second] = true;
-    numbers += (numbers.empty() ? "" : ", ") + std::to_string(surface.polygon_facets[back->second].number) + " and " +
-               std::to_string(facet.number);
-    unpaired.erase(back);
   }
-  if (numbers.empty()) return;
+  return walls;
+}
+
+}  // namespace
+
+void drop_bridge_walls(plc::InputPlc& surface) {
+  if (surface.inside != plc::InputPlc::Inside::even_odd) return;
+  const std::set<Edge> bridges = find_bridges(surface);
+  if (bridges.empty()) return;
+  std::set<std::size_t> dropped;
+  std::string numbers;
+  for (const auto& [one, other] : find_walls(surface, bridges)) {
+    dropped.insert({one, other});
+    numbers += (numbers.empty() ? "" : ", ") + std::to_string(surface.polygon_facets[one].number) + " and " +
+               std::to_string(surface.polygon_facets[other].number);
+  }
+  if (dropped.empty()) return;
   std::size_t next = 0;
-  std::erase_if(surface.polygon_facets, [&](const plc::PolygonFacet&) { return dropped[next++]; });
+  std::erase_if(surface.polygon_facets, [&](const plc::PolygonFacet&) { return dropped.contains(next++); });
   surface.notes.push_back("two facets on the bridge of a polygon bound nothing and were left out: facets " + numbers);
 }
 

@@ -6,8 +6,7 @@ namespace ccdt::plc {
 
 /// Checks the invariants of an input. Readers ensure them, but other callers of the library may not.
 ///
-/// \throw InputError  an index is out of range, a list of markers or numbers is neither empty nor complete, or a seed
-/// has
+/// \throw InputError  an index is out of range; a list of markers or numbers is neither empty nor complete; a seed has
 ///                    a coordinate that is not finite
 void check_input(const InputPlc& input);
 

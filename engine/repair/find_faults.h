@@ -15,8 +15,8 @@ namespace ccdt::repair {
 /// \param input     as it was read
 /// \param flatness  tolerance for flat facets, as in the mesher
 /// \param progress  called repeatedly; throw from it to cancel
-/// \throw InputError  an index is out of range, or a list incomplete, as in no file; or the tolerance is not a number
-/// >= 0
+/// \throw InputError  an index is out of range, or a list incomplete, as in no file; the tolerance is negative or not a
+///                    number
 Diagnosis find_faults(const plc::InputPlc& input, double flatness = usual_flatness, const Progress& progress = {});
 
 }  // namespace ccdt::repair

@@ -88,7 +88,7 @@ bool sticks_out(const ClosedPart& part, const OrientedSurface& surface) {
 
 }  // namespace
 
-void turn_outward(OrientedSurface& surface) {
+void turn_parts_outward(OrientedSurface& surface) {
   std::vector<ClosedPart> parts = find_closed_parts(surface);
   const auto turn = [&](ClosedPart& part) {
     part.volume = -part.volume;

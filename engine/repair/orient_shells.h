@@ -14,7 +14,7 @@ void orient_shells(plc::UncheckedPlc& soup);
 
 /// Turns closed parts whose normals point inward, unless they are voids: those that stick out of all others, and all
 /// parts if together they are inside out.
-void turn_outward(OrientedSurface& surface);
+void turn_parts_outward(OrientedSurface& surface);
 
 /// The triangles between the domain and the rest, with normals that point out of the domain.
 std::vector<plc::VertexTriple> outward_triangles(const plc::Plc& plc);

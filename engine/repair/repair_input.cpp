@@ -218,7 +218,7 @@ class Repair {
     add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
     check_something_is_enclosed();
     if (cuts.pairs == 0 || cuts.left > 0 || !is_surface(input_)) return cuts;
-    repair::turn_outward(surface);
+    turn_parts_outward(surface);
     try {
       add("walls", "facets removed from the inside of the union", remove_walls(parts_, surface, soup_.input, options_));
     } catch (const InputError&) {
@@ -262,8 +262,8 @@ class Repair {
   double largest_weld() const { return limits_.weld / 2; }
 
   /// Things that should touch may be farther apart than facets from being flat: as far as a file with few digits
-  /// rounds. So larger welds are tried where smaller ones do not lead to a clean surface. Of equal
-  /// successes the first counts: larger welds change more.
+  /// rounds. So larger welds are tried where smaller ones do not lead to a clean surface. Of equal successes the first
+  /// counts: larger welds change more.
   void repair_with_larger_welds() {
     const auto state = [&] { return std::tie(parts_, lids_, left_open_, farthest_, result_.steps); };
     using State = std::tuple<plc::UncheckedPlc, std::vector<Lid>, std::size_t, double, std::vector<RepairStep>>;
@@ -340,9 +340,9 @@ class Repair {
   plc::UncheckedPlc& parts_;  // of the soup
   const plc::UncheckedPlc given_;
   Limits limits_;
-  double reach_ = 0;       // of welds
-  bool is_welded_ = true;  // what almost touched
-  bool has_cuts_ = false;
+  double reach_ = 0;            // of welds
+  bool is_welded_ = true;       // what almost touched
+  bool has_cuts_ = false;       // were facets cut since then?
   bool is_given_open_ = false;  // has holes before anything is cut that must stay open
   std::vector<Lid> lids_;
   std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last
