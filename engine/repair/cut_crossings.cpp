@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 #include <utility>
@@ -90,6 +91,31 @@ void merge_vertices(const std::vector<std::array<VertexId, 2>>& equal, plc::Unch
   for (auto& ends : soup.segments.ends) renumber(ends);
 }
 
+/// Rounds all vertices to multiples of the spacing, and measures them in units in which it is a quantum.
+void coarsen(double spacing, plc::UncheckedPlc& soup) {
+  plc::Plc& plc = soup.plc;
+  plc.grid.unit *= spacing / DyadicGrid::quantum;
+  const auto round = [spacing](double x) { return DyadicGrid::quantum * std::nearbyint(x / spacing); };
+  std::vector<std::array<VertexId, 2>> equal;
+  HashTable<IntegerPoint, std::uint32_t> known;
+  for (std::uint32_t v = 0; v < plc.vertices.size(); ++v) {
+    Point3& p = plc.vertices[v];
+    p = {round(p.x), round(p.y), round(p.z)};
+    plc.world[v] = plc.grid.to_world(p);
+    const auto [first, is_new] = known.insert(to_integers(p), v);
+    if (!is_new) equal.push_back({VertexId(*first), VertexId(v)});
+  }
+  std::vector<std::uint8_t> is_near(plc.vertices.size(), 0);
+  merge_vertices(equal, soup, is_near);
+}
+
+/// Measures the vertices in the units before `coarsen`.
+void measure_finely(double spacing, plc::Plc& plc) {
+  const double factor = spacing / DyadicGrid::quantum;
+  plc.grid.unit /= factor;
+  for (Point3& p : plc.vertices) p = factor * p;
+}
+
 /// Marks the corners of the triangles that are cut, and all vertices that were made.
 void mark_near(const std::vector<Cut>& cuts, const plc::UncheckedPlc& soup, std::vector<std::uint8_t>& is_near) {
   is_near.resize(soup.plc.vertices.size(), is_near.empty() ? 0 : 1);
@@ -122,14 +148,38 @@ class WeldSearch {
   bool is_near_everywhere_;
 };
 
+/// Joins what almost touches at cuts whose ends are all rounded to corners of the triangles, so that cutting does
+/// nothing. Of such things, only the nearest are joined, since this moves them.
+///
+/// \return  was there anything?
+bool join_where_stuck(const std::vector<Cut>& cuts, plc::UncheckedPlc& soup) {
+  std::vector<std::uint8_t> is_near;
+  mark_near(cuts, soup, is_near);
+  for (WeldReach reach{.edges = DyadicGrid::quantum}; reach.edges <= WeldReach{}.edges; reach = {2 * reach.edges}) {
+    const Welds welds = find_welds(soup.plc.vertices, soup.triangles, is_near, reach);
+    if (!welds.equal.empty()) {
+      merge_vertices(welds.equal, soup, is_near);
+      return true;
+    }
+    const std::vector<plc::VertexTriple> before = soup.triangles.corners;
+    cut_along(number_vertices(welds, reach.vertices, soup), soup);
+    if (soup.triangles.corners != before) return true;
+  }
+  return false;
+}
+
 /// What becomes of things that almost touch.
 enum class Closeness : std::uint8_t {
   welded,  ///< they are joined. This bends what is near them, so there can be new crossings, without end
   kept     ///< only exact intersections are cut
 };
 
-/// General position needs one round, welds usually up to eight.
-constexpr std::size_t usual_rounds = 8, most_rounds = 2 * usual_rounds;
+/// General position needs one round, welds usually up to eight. Without welds, further rounds are cheap.
+constexpr std::size_t usual_rounds = 8;
+
+constexpr std::size_t most_rounds(Closeness closeness) {
+  return closeness == Closeness::welded ? usual_rounds : 4 * usual_rounds;
+}
 
 /// Where there is ever more to do, cuts make accidental intersections, and these make further cuts.
 bool is_without_end(std::size_t left, std::size_t left_before) {
@@ -152,7 +202,7 @@ CutCounts cut_in_rounds(plc::UncheckedPlc& soup, const CutOptions& options, Clos
     const Welds welds = closeness == Closeness::welded ? search.find(found.cuts, soup) : Welds();
     counts.left += welds.size();
     if (counts.rounds == 0 || (closeness == Closeness::kept && counts.left < left_before)) left_before = counts.left;
-    if (counts.left == 0 || counts.rounds == most_rounds || is_without_end(counts.left, left_before)) break;
+    if (counts.left == 0 || counts.rounds == most_rounds(closeness) || is_without_end(counts.left, left_before)) break;
     plc::split_segments_at_vertices(soup.plc.vertices, soup.segments);
     // Where triangles almost touch, their intersection is accidental. So they are welded first.
     if (!welds.equal.empty()) {
@@ -165,6 +215,7 @@ CutCounts cut_in_rounds(plc::UncheckedPlc& soup, const CutOptions& options, Clos
     counts.left = found.pairs;
     if (found.pairs == 0) break;  // things near each other are welded as far as possible
     cut_along(number_vertices(arrange_cuts(soup.plc.vertices, soup.triangles, found.cuts), soup), soup);
+    if (soup.triangles.corners == before && !join_where_stuck(found.cuts, soup)) break;
   }
   report(progress, stage, usual_rounds, usual_rounds);
   return counts;
@@ -176,10 +227,15 @@ CutCounts cut_crossings(plc::UncheckedPlc& soup, const CutOptions& options, cons
   CutCounts counts;
   for (const Closeness closeness : {Closeness::welded, Closeness::kept}) {
     plc::UncheckedPlc cut = soup;
-    counts = cut_in_rounds(cut, options, closeness, progress);
+    const bool is_coarse = options.spacing > DyadicGrid::quantum;
+    if (is_coarse) coarsen(options.spacing, cut);
+    counts = cut_in_rounds(cut,
+                           {.tolerance = options.tolerance * DyadicGrid::quantum / options.spacing,
+                            .weld_everywhere = options.weld_everywhere},
+                           closeness, progress);
     if (counts.left > 0) continue;
+    if (is_coarse) measure_finely(options.spacing, cut.plc);
     soup = std::move(cut);
-    counts.welded = closeness == Closeness::welded;
     return counts;
   }
   counts.left = counts.pairs;

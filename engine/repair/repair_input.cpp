@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <tuple>
@@ -212,8 +213,7 @@ class Repair {
 
   CutCounts cut_and_unite(bool weld_everywhere) {
     OrientedSurface surface{parts_.plc.vertices, parts_.triangles.corners};
-    const CutCounts cuts = cut_crossings(parts_, {reach_, weld_everywhere}, progress_);
-    is_welded_ = is_welded_ && cuts.welded;
+    const CutCounts cuts = cut_crossings(parts_, {reach_, spacing_, weld_everywhere}, progress_);
     has_cuts_ = has_cuts_ || cuts.pairs > 0;
     add("crossings", "pairs of facets cut at their intersection", cuts.pairs);
     check_something_is_enclosed();
@@ -241,51 +241,44 @@ class Repair {
     }
   }
 
-  enum class Success : std::uint8_t {
-    not_valid,
-    valid,   ///< but welds did not end, and some things almost touch
-    welded,  ///< but features are left that only larger welds join
-    clean
-  };
-
-  /// Features that are far smaller than the edges beside them, as cuts leave them, can keep the mesher from protecting
-  /// these edges.
-  Success success(bool is_valid) const {
-    if (!is_valid) return Success::not_valid;
-    if (!has_cuts_) return Success::clean;
-    if (!is_welded_) return Success::valid;
+  /// Does nothing almost touch? Cuts can leave features that are far smaller than the edges beside them, and these can
+  /// keep the mesher from protecting the edges.
+  bool is_clean() const {
+    if (!has_cuts_) return true;
     const std::vector<std::uint8_t> everywhere(parts_.plc.vertices.size(), 1);
-    const Welds left = find_welds(parts_.plc.vertices, parts_.triangles, everywhere, {.edges = largest_weld()});
-    return left.empty() ? Success::clean : Success::welded;
+    return find_welds(parts_.plc.vertices, parts_.triangles, everywhere, {.edges = largest_weld()}).empty();
   }
 
   double largest_weld() const { return limits_.weld / 2; }
 
   /// Things that should touch may be farther apart than facets from being flat: as far as a file with few digits
-  /// rounds. So larger welds are tried where smaller ones do not lead to a clean surface. Of equal successes the first
-  /// counts: larger welds change more.
+  /// rounds. So larger welds are tried where smaller ones do not lead to a clean surface, and there vertices are
+  /// rounded to a coarser grid. If none is clean, the last valid one counts: the coarser the grid, the larger its
+  /// features.
   void repair_with_larger_welds() {
     const auto state = [&] { return std::tie(parts_, lids_, left_open_, farthest_, result_.steps); };
     using State = std::tuple<plc::UncheckedPlc, std::vector<Lid>, std::size_t, double, std::vector<RepairStep>>;
     const State before = state();
-    std::optional<std::pair<Success, State>> best;
+    std::optional<State> first, last_valid;
     try {
       for (const double reach : {tolerance(), largest_weld() / 4, largest_weld()}) {
         if (reach < reach_) continue;
-        if (reach_ > 0) state() = before;
+        if (first) {
+          state() = before;
+          spacing_ = std::max(DyadicGrid::quantum, std::exp2(std::floor(std::log2(reach / 4))));
+        }
         reach_ = reach;
-        is_welded_ = true, has_cuts_ = false;
-        const Success now = success(is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0);
-        if (now == Success::clean) return;
-        if (!best || best->first < now) best = {now, state()};
+        has_cuts_ = false;
+        const bool is_valid = is_surface(input_) ? repair_surface() : cut_and_unite(false).left == 0;
+        if (is_valid && is_clean()) return;
+        if (!first) first = state();
+        if (is_valid) last_valid = state();
         if (is_given_open_) break;
       }
     } catch (const OutOfTime&) {
-      if (best) state() = best->second;
-      if (!best || best->first == Success::not_valid) throw;
-      return;
+      if (!last_valid) throw;
     }
-    state() = best->second;
+    state() = last_valid ? *last_valid : *first;
   }
 
   /// Closes the surface, cuts it, and turns it outward. What fills a hole can cross other facets, and cuts can leave
@@ -340,10 +333,10 @@ class Repair {
   plc::UncheckedPlc& parts_;  // of the soup
   const plc::UncheckedPlc given_;
   Limits limits_;
-  double reach_ = 0;            // of welds
-  bool is_welded_ = true;       // what almost touched
-  bool has_cuts_ = false;       // were facets cut since then?
-  bool is_given_open_ = false;  // has holes before anything is cut that must stay open
+  double reach_ = 0;                      // of welds
+  double spacing_ = DyadicGrid::quantum;  // of vertices
+  bool has_cuts_ = false;                 // were facets cut since then?
+  bool is_given_open_ = false;            // has holes before anything is cut that must stay open
   std::vector<Lid> lids_;
   std::size_t left_open_ = 0;  // holes whose lids would reach too far, at last
   double farthest_ = 0;        // how far those would reach

@@ -50,7 +50,7 @@ struct Repaired {
 /// edges, removes flaps that bound nothing, fills small holes, removes small sheets beside closed parts, and turns
 /// facets so that their normals point out of the domain. Facets that cross are cut at their intersections; where closed
 /// surfaces overlap, their union is left. Vertices keep their places, except where gaps are closed or where facets
-/// almost touch.
+/// almost touch; where such facets cannot be cut cleanly, all vertices are rounded to a coarser grid.
 ///
 /// \throw InputError  coordinates that are not finite; no facet has an area, or none encloses anything; an index or an
 ///                    option is out of range

@@ -158,6 +158,26 @@ TEST(CutCrossings, UnfoldATriangleThatLiesOnItsNeighbor) {
   EXPECT_EQ(result.soup.triangles.size(), 2u);  // nothing is left where there were two, facing opposite ways
 }
 
+TEST(CutCrossings, RoundAllVerticesToTheSpacing) {
+  for (const double spacing : {2 * DyadicGrid::quantum, 0x1p10 * DyadicGrid::quantum, 0x1p20 * DyadicGrid::quantum}) {
+    const plc::InputPlc sphere = models::make_solid("sphere", 0.3);
+    const plc::InputPlc other = moved(rotated(plc_test::arbitrary, sphere), {0.31, 0.57, 0.23});
+    Result result{both(sphere, other), {}, {}};
+    result.soup = plc::gather_plc(result.input);
+    const plc::UncheckedPlc before = result.soup;
+    result.counts = repair::cut_crossings(result.soup, {.spacing = spacing});
+    EXPECT_EQ(expect_valid(result).regions.size(), 4u);
+    EXPECT_EQ(result.soup.plc.grid.unit, before.plc.grid.unit);
+    for (const Point3& p : result.soup.plc.vertices)
+      for (const double x : as_array(p)) EXPECT_EQ(std::remainder(x, spacing), 0) << x;
+    for (std::size_t v = 0; v < before.plc.vertices.size(); ++v) {
+      const VertexId now = result.soup.plc.vertex_of_input[v];
+      EXPECT_LE(length(result.soup.plc.vertices[now] - before.plc.vertices[v]), spacing) << v;
+      EXPECT_EQ(result.soup.plc.grid.to_world(result.soup.plc.vertices[now]), result.soup.plc.world[now]) << v;
+    }
+  }
+}
+
 TEST(CutCrossings, FindAllRegionsOfTwoCubes) {
   const plc::InputPlc other = moved(rotated(plc_test::arbitrary, plc_test::unit_cube()), {0.31, 0.57, 0.23});
   const Result result = cut(both(plc_test::unit_cube(), other));
