@@ -120,7 +120,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       ->check(positive_number())
       ->needs(repair);
   verb->add_option("--time", command->options.seconds,
-                   "with --repair: seconds after which it stops and says how far it came; default: 10, and 1 for each "
+                   "with --repair: seconds after which it stops and says how far it came; default: 20, and 1 for each "
                    "1,000 facets")
       ->check(positive_number())
       ->needs(repair);

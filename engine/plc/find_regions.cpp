@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -244,6 +245,18 @@ void mark_by_nesting(RegionMap& map) {
     for (RegionId outer(c); outer != 0u; outer = map.around[outer]) map.regions[c].inside = !map.regions[c].inside;
 }
 
+// Regions in the domain that have no seed get the least positive numbers that no seed has.
+void number_regions(const InputPlc& input, const std::vector<bool>& has_seed, RegionMap& map) {
+  std::set<int> taken;
+  for (const InputPlc::RegionSeed& seed : input.regions) taken.insert(seed.attribute);
+  int next = 1;
+  for (std::uint32_t c = 1; c < map.regions.size(); ++c) {
+    if (!map.regions[c].inside || has_seed[c]) continue;
+    while (taken.contains(next)) ++next;
+    map.regions[c].attribute = next++;
+  }
+}
+
 // \throw InputError  see `find_regions`
 void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& triangles, const EdgeTable& edges,
                  const VerticalRays& rays, RegionMap& map) {
@@ -264,6 +277,7 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
     else
       map.regions[region].inside = false;
   }
+  std::vector<bool> has_seed(map.regions.size(), false);
   for (std::size_t i = 0; i < input.regions.size(); ++i) {
     const std::string name = "region seed " + std::to_string(i) + " (counted from 0)";
     const RegionId region = region_of_seed(plc, triangles, rays, map, input.regions[i].seed, name);
@@ -271,7 +285,9 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
       throw_input_error(plc, name + " is outside everything that the facets enclose", seed_remedy,
                         {input.regions[i].seed});
     map.regions[region].attribute = input.regions[i].attribute;
+    has_seed[region] = true;
   }
+  number_regions(input, has_seed, map);
   if (std::none_of(map.regions.begin(), map.regions.end(), [](const Region& c) { return c.inside; }))
     throw_input_error(plc, "the hole seeds leave nothing to mesh", "remove the hole seed of the part to be meshed");
 }

@@ -36,7 +36,8 @@ struct RegionMap {
 
 /// Finds the regions. First joins the sides of triangles that see each other through the sectors around each edge.
 /// Then, since a connected component of facets may be nested in others, joins sides by rays from one component to the
-/// next. Marks what is inside, according to the input's kind, and gives the regions the attributes of their seeds.
+/// next. Marks what is inside, according to the input's kind, and gives the regions the attributes of their seeds, or
+/// numbers from 1.
 ///
 /// \param tree  over the boxes of the triangles; made if it is missing and would be used often
 /// \throw InputError  a seed of a region is outside, or a seed is on a facet; or nothing is enclosed, or nothing is

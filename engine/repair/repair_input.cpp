@@ -346,7 +346,7 @@ class Repair {
 }  // namespace
 
 double usual_seconds(std::size_t facets) {
-  constexpr double at_least = 10, per_facet = 1e-3;
+  constexpr double at_least = 20, per_facet = 1e-3;
   return at_least + per_facet * static_cast<double>(facets);
 }
 

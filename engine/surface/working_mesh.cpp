@@ -162,10 +162,16 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input) {
     if (n == none) n = add(m.point(v));
     return n;
   };
+  // In the order of the patches, since regions are numbered in the order of triangles.
+  std::vector<std::pair<std::uint32_t, std::array<std::uint32_t, 3>>> triangles;
   for (const FaceHandle f : m.mesh.faces()) {
     const auto [a, b, c] = m.corners(m.mesh.halfedge_handle(f));
-    plc.triangles.push_back({number(a), number(b), number(c)});
-    plc.triangle_markers.push_back(m.original.patch_markers[m.at(a).patch]);
+    triangles.push_back({m.at(a).patch, {number(a), number(b), number(c)}});
+  }
+  std::ranges::stable_sort(triangles, {}, [](const auto& t) { return t.first; });
+  for (const auto& [patch, corners] : triangles) {
+    plc.triangles.push_back(corners);
+    plc.triangle_markers.push_back(m.original.patch_markers[patch]);
   }
   for (const WorkingMesh::Link& link : m.links) {
     if (!link.is_alive || !m.features.curves[link.curve].is_segment) continue;

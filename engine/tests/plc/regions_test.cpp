@@ -62,6 +62,28 @@ TEST(PlcRegions, RegionSeedsNameTheRegionsOfTwoCubes) {
   }
 }
 
+std::vector<int> attributes_inside(const plc::Plc& plc) {
+  std::vector<int> attributes;
+  for (const plc::Region& c : plc.regions)
+    if (c.inside) attributes.push_back(c.attribute);
+  std::ranges::sort(attributes);
+  return attributes;
+}
+
+TEST(PlcRegions, WithoutASeedAreNumberedFromOne) {
+  plc::InputPlc input = two_cubes();
+  EXPECT_EQ(attributes_inside(plc::build_plc(input)), (std::vector<int>{1, 2}));
+  input.inside = Inside::seeds;
+  EXPECT_EQ(attributes_inside(plc::build_plc(input)), (std::vector<int>{1, 2}));
+  input.regions = {{{0.5, 0.5, 0.5}, 1, 0}};
+  EXPECT_EQ(attributes_inside(plc::build_plc(input)), (std::vector<int>{1, 2})) << "1 is taken";
+  input.regions[0].attribute = 2;
+  EXPECT_EQ(attributes_inside(plc::build_plc(input)), (std::vector<int>{1, 2})) << "1 is not";
+  input.regions[0].attribute = 0;
+  EXPECT_EQ(attributes_inside(plc::build_plc(input)), (std::vector<int>{0, 1})) << "as the file says";
+  EXPECT_EQ(attributes_inside(plc::build_plc(cube_in_cube())), std::vector<int>{1});
+}
+
 TEST(PlcRegions, ACubeInACubeIsAHoleInASurface) {
   const plc::Plc plc = plc::build_plc(cube_in_cube());
   EXPECT_EQ(plc.regions.size(), 3u);
