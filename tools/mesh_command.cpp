@@ -41,6 +41,7 @@ namespace {
 
 struct MeshCommand {
   std::string input, output, report;
+  std::string format;          ///< of the output; empty: that of its extension
   std::string surface_output;  ///< file for the remeshed or repaired surface
   bool repair = false;         ///< before meshing
   std::string mesher = "ccdt";
@@ -74,7 +75,7 @@ void check_surface_output(const std::filesystem::path& file) {
 }
 
 void check_files(const MeshCommand& command) {
-  if (!io::is_tet_mesh_file(command.output))
+  if (command.format.empty() && !io::is_tet_mesh_file(command.output))
     throw OutputError("unknown file extension '" + std::filesystem::path(command.output).extension().string() + "'",
                       io::place_in(command.output), "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
   check_can_be_written(command.output);
@@ -263,7 +264,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   const Stopwatch watch(record.write_seconds);
   if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
   PartOfResult surface(command.surface_output);
-  io::write_tet_mesh(run.result.mesh, command.output);
+  io::write_tet_mesh(run.result.mesh, command.output, command.format);
   surface.keep();
 }
 
@@ -331,6 +332,9 @@ void add_files(CLI::App& verb, MeshCommand& command) {
   verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")
       ->required();
   verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .node")->required();
+  verb.add_option("--format", command.format,
+                  "format of the mesh, if not that of its extension: msh4 is Gmsh 4.1 (binary), msh Gmsh 2.2 (text)")
+      ->check(CLI::IsMember(io::tet_mesh_formats()));
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
   verb.add_option("--report", command.report,

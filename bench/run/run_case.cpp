@@ -86,13 +86,13 @@ RunFiles files_of(const Case& asked, const Scratch& scratch) {
   return {input, scratch.file("mesh" + mesh_ending(asked)), scratch.folder()};
 }
 
-/// The files of a mesh that consists of several files have the same stem.
+/// The files of a mesh that consists of several files differ only after the first dot.
 void keep_mesh(const RunPlace& place, const MeasuredCase& measured, const Scratch& scratch) {
   std::filesystem::create_directories(place.folder / "meshes");
+  const std::string stem = "mesh";
   for (const auto& entry : std::filesystem::directory_iterator(scratch.folder()))
-    if (entry.path().stem() == "mesh")
-      std::filesystem::rename(entry.path(),
-                              place.folder / "meshes" / (measured.id + entry.path().extension().string()));
+    if (const std::string name = entry.path().filename().string(); name.starts_with(stem + "."))
+      std::filesystem::rename(entry.path(), place.folder / "meshes" / (measured.id + name.substr(stem.size())));
 }
 
 }  // namespace

@@ -92,31 +92,39 @@ void check_mesh(const mesh::TetMesh& mesh, const std::string& file) {
     throw OutputError("a coordinate is not finite", place_in(file), "check the mesh");
 }
 
+/// A format has one file, or several.
 struct TetMeshFormat {
   std::string_view ending;
-  mesh::TetMesh (*read)(const FileBytes&) = nullptr;  ///< null for TetGen's format, which has several files
+  mesh::TetMesh (*read)(const FileBytes&) = nullptr;
   void (*write)(const mesh::TetMesh&, OutputFile&) = nullptr;
+  mesh::TetMesh (*read_files)(const std::filesystem::path&) = nullptr;
+  void (*write_files)(const mesh::TetMesh&, const std::filesystem::path&) = nullptr;
 };
 
 constexpr TetMeshFormat mesh_formats[] = {
     {".mesh", read_medit_mesh, write_medit_mesh},
     {".meshb", read_meditb_mesh, write_meditb_mesh},
-    {".vtu", read_vtu, write_vtu},
+    {".vtu", nullptr, nullptr, read_vtu_files, write_vtu_files},
     {".msh", read_gmsh, write_gmsh},
     {".msh4", read_gmsh, write_gmsh4},
-    {".node"},
-    {".ele"},
-    {".face"},
+    {".node", nullptr, nullptr, read_tetgen_mesh, write_tetgen_mesh},
+    {".ele", nullptr, nullptr, read_tetgen_mesh, write_tetgen_mesh},
+    {".face", nullptr, nullptr, read_tetgen_mesh, write_tetgen_mesh},
 };
 
 constexpr const char* mesh_endings =
     ".mesh and .meshb (Medit), .vtu (VTK), .msh and .msh4 (Gmsh), .node, .ele and .face (TetGen)";
 
-/// The format with the ending of the file; null if there is none.
+/// The format with this ending; null if there is none.
+template <class Format, std::size_t Count>
+const Format* format_called(std::string_view ending, const Format (&formats)[Count]) {
+  const auto format = std::ranges::find(formats, ending, &Format::ending);
+  return format == std::end(formats) ? nullptr : format;
+}
+
 template <class Format, std::size_t Count>
 const Format* format_of(const std::filesystem::path& file, const Format (&formats)[Count]) {
-  const auto format = std::ranges::find(formats, lower_ending(file), &Format::ending);
-  return format == std::end(formats) ? nullptr : format;
+  return format_called(lower_ending(file), formats);
 }
 
 /// The ending of the format whose keyword the file begins with; empty for formats without a keyword.
@@ -137,8 +145,9 @@ std::string_view ending_shown_by(const FileBytes& file) {
                    "convert the file, or rename it to one of " + known_endings);
 }
 
-[[noreturn]] void fail_to_write(const std::filesystem::path& file, const std::string& known_endings) {
-  throw OutputError("unknown file extension '" + lower_ending(file) + "'", place_in(file.string()),
+[[noreturn]] void fail_to_write(const std::string& ending, const std::filesystem::path& file,
+                                const std::string& known_endings) {
+  throw OutputError("unknown file extension '" + ending + "'", place_in(file.string()),
                     "choose one of " + known_endings);
 }
 
@@ -203,7 +212,8 @@ plc::InputPlc read_plc(const std::filesystem::path& file) {
 void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {
   with_file_in_errors(file.string(), [&] { plc::check_input(plc); });
   const PlcFormat* format = format_of(file, plc_formats);
-  if (!format || !format->write) fail_to_write(file, ".stl, .off, .obj, .ply, .poly, .smesh, .mesh and .meshb");
+  if (!format || !format->write)
+    fail_to_write(lower_ending(file), file, ".stl, .off, .obj, .ply, .poly, .smesh, .mesh and .meshb");
   check_format_holds(plc, *format, file.string());
   OutputFile out(file);
   format->write(plc, out);
@@ -214,11 +224,18 @@ bool is_tet_mesh_file(const std::filesystem::path& file) {
   return format_of(file, mesh_formats) != nullptr;
 }
 
-void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
+std::vector<std::string> tet_mesh_formats() {
+  std::vector<std::string> names;
+  for (const TetMeshFormat& format : mesh_formats) names.emplace_back(format.ending.substr(1));
+  return names;
+}
+
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& name) {
   check_mesh(mesh, file.string());
-  const TetMeshFormat* format = format_of(file, mesh_formats);
-  if (!format) fail_to_write(file, mesh_endings);
-  if (!format->write) return write_tetgen_mesh(mesh, file);
+  const std::string ending = name.empty() ? lower_ending(file) : "." + name;
+  const TetMeshFormat* format = format_called(ending, mesh_formats);
+  if (!format) fail_to_write(ending, file, mesh_endings);
+  if (format->write_files) return format->write_files(mesh, file);
   OutputFile out(file);
   format->write(mesh, out);
   out.commit();
@@ -227,7 +244,7 @@ void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file
 mesh::TetMesh read_tet_mesh(const std::filesystem::path& file) {
   const TetMeshFormat* format = format_of(file, mesh_formats);
   if (!format) fail_to_read(file, mesh_endings);
-  return format->read ? format->read(read_whole_file(file)) : read_tetgen_mesh(file);
+  return format->read ? format->read(read_whole_file(file)) : format->read_files(file);
 }
 
 }  // namespace ccdt::io

@@ -41,18 +41,31 @@ void write_meditb_plc(const plc::InputPlc& plc, OutputFile& out);
 /// Tetrahedral meshes.
 mesh::TetMesh read_medit_mesh(const FileBytes& file);
 mesh::TetMesh read_meditb_mesh(const FileBytes& file);
-mesh::TetMesh read_vtu(const FileBytes& file);
 mesh::TetMesh read_gmsh(const FileBytes& file);
+/// What is in one file.
+mesh::TetMesh read_vtu(const FileBytes& file);
+/// Reads the faces and edges from the second file (`write_vtu_files`) if there are none in the first.
+///
+/// \throw InputError  also if the two do not belong together
+mesh::TetMesh read_vtu_files(const std::filesystem::path& file);
 /// Reads .node and .ele, and .face and .edge if they exist, given the path of one of the first three.
 mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file);
 
 void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out);
 void write_meditb_mesh(const mesh::TetMesh& mesh, OutputFile& out);
-void write_vtu(const mesh::TetMesh& mesh, OutputFile& out);
 /// Version 2.2 in text, which most programs read.
 void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out);
 /// Version 4.1 in binary.
 void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out);
+/// The tetrahedra with their `region`.
+void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out);
+/// The faces and edges on facets and segments with their `marker`, and their points with their `vtu_point_vertex`.
+void write_vtu_boundary(const mesh::TetMesh& mesh, OutputFile& out);
+/// Writes the tetrahedra, and beside them a file .boundary.vtu (even an empty one, so that none of an older mesh
+/// remains). In one file, a viewer would draw each face twice.
+void write_vtu_files(const mesh::TetMesh& mesh, const std::filesystem::path& file);
+/// The array with the vertex of the mesh for each point.
+inline constexpr const char* vtu_point_vertex = "vertex";
 /// Writes .node, .ele, .face and .edge (even empty ones, so that no file of an older mesh remains).
 void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
 

@@ -47,14 +47,14 @@ OutputFile& put_size(std::size_t value, OutputFile& out) {
 }
 
 /// "tag box physical-tags bounding-entities" for each entity, numbered from 1. All have the box of the whole mesh. A
-/// marker of 0 is not a physical tag.
+/// marker of 0 is written, too, although it means no group: meshio wants a physical tag for all entities or for none.
 void write_entities(const Entities& entities, const Box& box, OutputFile& out) {
   std::int32_t tag = 0;
   for (const auto& [marker, elements] : entities) {
     put_integer(++tag, out);
     for (const Point3& corner : {box.low, box.high}) out.raw(corner.x).raw(corner.y).raw(corner.z);
-    put_size(marker == 0 ? 0 : 1, out);
-    if (marker != 0) put_integer(marker, out);
+    put_size(1, out);
+    put_integer(marker, out);
     put_size(0, out);
   }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "engine/mesh/tet_mesh.h"
 
@@ -9,13 +11,18 @@ namespace ccdt::io {
 /// Can `write_tet_mesh` write files with this extension? Check it before hours of work.
 bool is_tet_mesh_file(const std::filesystem::path& file);
 
-/// Writes a mesh; the extension determines the format: .mesh (Medit, text), .meshb (Medit, binary), .vtu (VTK,
-/// compressed), .msh (Gmsh 2.2, text), .msh4 (Gmsh 4.1, binary), .node, .ele or .face (TetGen: all three and .edge are
-/// written). Coordinates are written so that they read back bit for bit. Regions, face and edge markers are written
-/// too. The file appears completely or not at all.
+/// The names of all formats: their extensions without the dot.
+std::vector<std::string> tet_mesh_formats();
+
+/// Writes a mesh; the extension determines the format, unless one is given: .mesh (Medit, text), .meshb (Medit,
+/// binary), .vtu (VTK, compressed; faces and edges in a second file .boundary.vtu), .msh (Gmsh 2.2, text), .msh4
+/// (Gmsh 4.1, binary), .node, .ele or .face (TetGen: all three and .edge are written). Coordinates are written so that
+/// they read back bit for bit. Regions, face and edge markers are written too. The file appears completely or not at
+/// all.
 ///
+/// \param format       one of `tet_mesh_formats`, such as "msh4" for a file .msh; empty: that of the extension
 /// \throw OutputError  cannot be written, unknown extension, or an index, a list or a coordinate of the mesh is wrong
-void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format = {});
 
 /// Reads a mesh that any mesher wrote in one of these formats: Medit text, .meshb versions 1 to 4, .vtu in text, base64
 /// or appended, with or without zlib, and .msh 2.x and 4.1 in text and binary. Of TetGen's files, .node and .ele must

@@ -208,52 +208,73 @@ struct AppendedArray {
   const char* attributes = "";
 };
 
-AppendedArray points_of(const mesh::TetMesh& mesh) {
-  const auto coordinate = [&](std::size_t i) { return as_array(mesh.vertices[i / 3])[i % 3]; };
-  return {"Float64", "Points", compress_values(3 * mesh.vertices.size(), coordinate), " NumberOfComponents=\"3\""};
-}
-
-/// The tetrahedra, the faces and the edges of a mesh in one list.
-struct AllCells {
+/// The tetrahedra of a mesh, or its faces and edges in one list, with the points that a file has for them.
+struct CellList {
   const mesh::TetMesh& mesh;
-  std::size_t tetrahedra = mesh.tetrahedra.size(), faces = mesh.faces.size(), edges = mesh.edges.size();
+  std::vector<std::uint32_t> vertex_of_point;  ///< empty: every vertex of the mesh is a point
+  std::vector<std::uint32_t> point_of_vertex;  ///< empty likewise
+  std::size_t tetrahedra, faces, edges;        ///< how many of each
 
   std::size_t size() const { return tetrahedra + faces + edges; }
   std::size_t corner_count() const { return 4 * tetrahedra + 3 * faces + 2 * edges; }
+  std::size_t point_count() const { return point_of_vertex.empty() ? mesh.vertices.size() : vertex_of_point.size(); }
+
+  std::uint32_t vertex(std::size_t point) const {
+    return point_of_vertex.empty() ? static_cast<std::uint32_t>(point) : vertex_of_point[point];
+  }
 
   std::uint32_t corner(std::size_t i) const {
-    if (i < 4 * tetrahedra) return mesh.tetrahedra[i / 4][i % 4];
-    i -= 4 * tetrahedra;
-    if (i < 3 * faces) return mesh.faces[i / 3][i % 3];
+    if (tetrahedra > 0) return mesh.tetrahedra[i / 4][i % 4];
+    if (i < 3 * faces) return point_of_vertex[mesh.faces[i / 3][i % 3]];
     i -= 3 * faces;
-    return mesh.edges[i / 2][i % 2];
+    return point_of_vertex[mesh.edges[i / 2][i % 2]];
   }
 
   /// Where the corners of a cell end.
   std::size_t corners_end(std::size_t cell) const {
     const std::size_t end = cell + 1;
-    if (end <= tetrahedra) return 4 * end;
-    return end <= tetrahedra + faces ? tetrahedra + 3 * end : 2 * tetrahedra + faces + 2 * end;
+    if (tetrahedra > 0) return 4 * end;
+    return end <= faces ? 3 * end : faces + 2 * end;
   }
 
-  std::uint8_t type(std::size_t cell) const {
-    return cell < tetrahedra ? tetrahedron : cell < tetrahedra + faces ? triangle : line;
-  }
+  std::uint8_t type(std::size_t cell) const { return tetrahedra > 0 ? tetrahedron : cell < faces ? triangle : line; }
 
-  /// Of a tetrahedron; 0 for the other cells.
-  std::int32_t region(std::size_t cell) const { return cell < tetrahedra ? attribute_of(mesh.regions, cell) : 0; }
-
-  /// Of a face or an edge; 0 for tetrahedra.
-  std::int32_t marker(std::size_t cell) const {
-    if (cell < tetrahedra) return 0;
-    cell -= tetrahedra;
+  /// The region of a tetrahedron, or the marker of a face or an edge.
+  std::int32_t attribute(std::size_t cell) const {
+    if (tetrahedra > 0) return attribute_of(mesh.regions, cell);
     return cell < faces ? attribute_of(mesh.face_markers, cell) : attribute_of(mesh.edge_markers, cell - faces);
   }
 };
 
+CellList tetrahedra_of(const mesh::TetMesh& mesh) {
+  return {mesh, {}, {}, mesh.tetrahedra.size(), 0, 0};
+}
+
+CellList boundary_of(const mesh::TetMesh& mesh) {
+  CellList cells{
+      mesh, {}, std::vector<std::uint32_t>(mesh.vertices.size() + 1, none), 0, mesh.faces.size(), mesh.edges.size()};
+  const auto note = [&](const auto& elements) {
+    for (const auto& corners : elements)
+      for (const std::uint32_t v : corners) cells.point_of_vertex[v] = 0;
+  };
+  note(mesh.faces);
+  note(mesh.edges);
+  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (cells.point_of_vertex[v] == none) continue;
+    cells.point_of_vertex[v] = static_cast<std::uint32_t>(cells.vertex_of_point.size());
+    cells.vertex_of_point.push_back(v);
+  }
+  return cells;
+}
+
+AppendedArray points_of(const CellList& cells) {
+  const auto coordinate = [&](std::size_t i) { return as_array(cells.mesh.vertices[cells.vertex(i / 3)])[i % 3]; };
+  return {"Float64", "Points", compress_values(3 * cells.point_count(), coordinate), " NumberOfComponents=\"3\""};
+}
+
 /// The corners of the cells, and where the corners of each end.
 template <class Index>
-std::array<AppendedArray, 2> corners_of(const AllCells& cells, const char* type) {
+std::array<AppendedArray, 2> corners_of(const CellList& cells, const char* type) {
   const auto corner = [&](std::size_t i) { return static_cast<Index>(cells.corner(i)); };
   const auto end = [&](std::size_t cell) { return static_cast<Index>(cells.corners_end(cell)); };
   return {{{type, "connectivity", compress_values(cells.corner_count(), corner)},
@@ -271,6 +292,41 @@ void declare(const char* group, const char* attributes, std::span<const Appended
     offset += array.bytes.size();
   }
   out << "      </" << group << ">\n";
+}
+
+/// \param attribute  what the attribute of the cells is called
+void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
+  const bool is_short = std::max(list.corner_count(), list.point_count()) <= INT_MAX;
+  const std::array<AppendedArray, 1> points = {points_of(list)};
+  auto [corners, offsets] =
+      is_short ? corners_of<std::int32_t>(list, "Int32") : corners_of<std::int64_t>(list, "Int64");
+  const auto of_cells = [&](auto(CellList::*of_cell)(std::size_t) const) {
+    return compress_values(list.size(), [&](std::size_t cell) { return (list.*of_cell)(cell); });
+  };
+  const std::array<AppendedArray, 3> cells = {std::move(corners), std::move(offsets),
+                                              AppendedArray{"UInt8", "types", of_cells(&CellList::type)}};
+  const std::array<AppendedArray, 1> of_each_cell = {AppendedArray{"Int32", attribute, of_cells(&CellList::attribute)}};
+  std::vector<AppendedArray> of_each_point;
+  if (!list.point_of_vertex.empty())
+    of_each_point.push_back({"UInt32", vtu_point_vertex, compress_values(list.point_count(), [&](std::size_t point) {
+                               return list.vertex(point);
+                             })});
+
+  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
+         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <FieldData>\n"
+         "      <DataArray type=\"Int32\" Name=\"constrained_delaunay\" NumberOfTuples=\"1\" format=\"ascii\">"
+      << (list.mesh.constrained_delaunay ? 1 : 0) << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\""
+      << list.point_count() << "\" NumberOfCells=\"" << list.size() << "\">\n";
+  std::size_t offset = 0;
+  declare("Points", "", points, offset, out);
+  declare("Cells", "", cells, offset, out);
+  if (!of_each_point.empty()) declare("PointData", "", of_each_point, offset, out);
+  declare("CellData", (" Scalars=\"" + std::string(attribute) + "\"").c_str(), of_each_cell, offset, out);
+  out << "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
+  for (const std::span<const AppendedArray> arrays :
+       {std::span<const AppendedArray>(points), {cells}, {of_each_point}, {of_each_cell}})
+    for (const AppendedArray& array : arrays) out << array.bytes;
+  out << "\n  </AppendedData>\n</VTKFile>\n";
 }
 
 }  // namespace
@@ -291,34 +347,12 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
   return mesh;
 }
 
-/// Tetrahedra come first, then the faces and edges on facets and segments. `region` is of the tetrahedra, `marker` of
-/// the others. All arrays are compressed and appended.
-void write_vtu(const mesh::TetMesh& mesh, OutputFile& out) {
-  const AllCells all{mesh};
-  const bool is_short = std::max(all.corner_count(), mesh.vertices.size()) <= INT_MAX;
-  const std::array<AppendedArray, 1> points = {points_of(mesh)};
-  auto [corners, offsets] = is_short ? corners_of<std::int32_t>(all, "Int32") : corners_of<std::int64_t>(all, "Int64");
-  const auto of_cells = [&](auto(AllCells::*of_cell)(std::size_t) const) {
-    return compress_values(all.size(), [&](std::size_t cell) { return (all.*of_cell)(cell); });
-  };
-  const std::array<AppendedArray, 3> cells = {std::move(corners), std::move(offsets),
-                                              AppendedArray{"UInt8", "types", of_cells(&AllCells::type)}};
-  const std::array<AppendedArray, 2> attributes = {AppendedArray{"Int32", "region", of_cells(&AllCells::region)},
-                                                   AppendedArray{"Int32", "marker", of_cells(&AllCells::marker)}};
+void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out) {
+  write_grid(tetrahedra_of(mesh), "region", out);
+}
 
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <FieldData>\n"
-         "      <DataArray type=\"Int32\" Name=\"constrained_delaunay\" NumberOfTuples=\"1\" format=\"ascii\">"
-      << (mesh.constrained_delaunay ? 1 : 0) << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\""
-      << mesh.vertices.size() << "\" NumberOfCells=\"" << all.size() << "\">\n";
-  std::size_t offset = 0;
-  declare("Points", "", points, offset, out);
-  declare("Cells", "", cells, offset, out);
-  declare("CellData", " Scalars=\"region\"", attributes, offset, out);
-  out << "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
-  for (const std::span<const AppendedArray> arrays : {std::span<const AppendedArray>(points), {cells}, {attributes}})
-    for (const AppendedArray& array : arrays) out << array.bytes;
-  out << "\n  </AppendedData>\n</VTKFile>\n";
+void write_vtu_boundary(const mesh::TetMesh& mesh, OutputFile& out) {
+  write_grid(boundary_of(mesh), "marker", out);
 }
 
 }  // namespace ccdt::io

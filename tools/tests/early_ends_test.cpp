@@ -52,7 +52,9 @@ class EarlyEnd : public Program {
   static std::vector<Call> calls() {
     return {
         {{"model", "piston", "--edge-length", "2", "-o", "m.off"}, {"m.off"}},
-        {{"mesh", "part.off", "-o", "o.vtu", "--report", "r.json", "--threads", "2"}, {"o.vtu"}, "r.json"},
+        {{"mesh", "part.off", "-o", "o.vtu", "--report", "r.json", "--threads", "2"},
+         {"o.vtu", "o.boundary.vtu"},
+         "r.json"},
         {{"mesh", "part.off", "-o", "o.ele"}, {"o.face", "o.edge", "o.ele", "o.node"}},
         {{"mesh", "part.off", "-o", "o.mesh", "--surface", "remesh", "--edge-length", "5", "--surface-output", "s.off"},
          {"s.off", "o.mesh"}},

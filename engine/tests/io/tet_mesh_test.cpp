@@ -19,7 +19,8 @@ TEST(TetMeshFiles, EveryFormatKeepsEverything) {
       io::write_tet_mesh(mesh, folder / name);
       expect_same_mesh(io::read_tet_mesh(folder / name), mesh);
     }
-    EXPECT_EQ(folder.files(), std::filesystem::exists(folder / "a.ele") ? 4u : 1u);
+    const bool is_vtu = io::lower_ending(name) == ".vtu";
+    EXPECT_EQ(folder.files(), is_vtu ? 2u : std::filesystem::exists(folder / "a.ele") ? 4u : 1u);
   }
 }
 
@@ -58,6 +59,32 @@ TEST(TetMeshFiles, AreTheSameOnAnyNumberOfThreads) {
       EXPECT_TRUE(bytes_of(file.path()) == bytes_of(several / file.path().filename().string())) << file.path();
     expect_same_mesh(io::read_tet_mesh(several / name), mesh);
   }
+}
+
+TEST(VtuFiles, AnotherMeshsBoundaryIsRefused) {
+  const Folder folder;
+  mesh::TetMesh other = small_mesh();
+  io::write_tet_mesh(small_mesh(), folder / "a.vtu");
+  other.vertices[other.faces[0][0]].x += 1;
+  io::write_tet_mesh(other, folder / "b.vtu");
+  std::filesystem::rename(folder / "b.boundary.vtu", folder / "a.boundary.vtu");
+  expect_input_error([&] { io::read_tet_mesh(folder / "a.vtu"); }, {});
+  other.vertices.resize(1);
+  other.tetrahedra.clear(), other.regions.clear(), other.faces.clear(), other.face_markers.clear();
+  other.edges.clear(), other.edge_markers.clear();
+  io::write_tet_mesh(small_mesh(), folder / "a.vtu");
+  std::filesystem::rename(folder / "a.boundary.vtu", folder / "c.boundary.vtu");
+  io::write_tet_mesh(other, folder / "a.vtu");
+  std::filesystem::rename(folder / "c.boundary.vtu", folder / "a.boundary.vtu");
+  expect_input_error([&] { io::read_tet_mesh(folder / "a.vtu"); }, {});
+}
+
+TEST(VtuFiles, AnotherProgramsBoundaryIsNotRead) {
+  const Folder folder;
+  io::write_tet_mesh(small_mesh(), folder / "a.vtu");
+  std::filesystem::copy_file(folder / "a.vtu", folder / "a.boundary.vtu",
+                             std::filesystem::copy_options::overwrite_existing);
+  EXPECT_TRUE(io::read_tet_mesh(folder / "a.vtu").faces.empty());
 }
 
 TEST(TetMeshFiles, EndingsAreKnownBeforehand) {
