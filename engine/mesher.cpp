@@ -66,6 +66,7 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   ProtectedDomain domain;
   Tetrahedralization t = tetrahedralize(surface.changed ? *surface.changed : input, false, domain, run);
   steps::improve_mesh(domain, t, run);
+  t.mesh.face_names = input.marker_names;
   return finish(domain, std::move(t), run);
 }
 

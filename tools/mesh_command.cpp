@@ -2,7 +2,9 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
+#include <string>
 #include <system_error>
 #include <utility>
 
@@ -101,6 +103,17 @@ std::string note_of(const InputPlc::Warped& warped) {
 }
 
 /// Another mesher leaves out what only ccdt can do. Its user should know.
+std::string note_of(const std::map<int, std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::string note = "names in the file are markers:";
+  std::size_t count = 0;
+  for (const auto& [marker, name] : names) {
+    if (count++ == most) return note + " and " + bench::with_separators(names.size() - most) + " more";
+    note += " " + std::to_string(marker) + " is '" + name + "'" + (count < names.size() ? "," : "");
+  }
+  return note;
+}
+
 std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
   if (chosen.name == "ccdt") return {};
@@ -125,6 +138,7 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
+  if (!input.marker_names.empty()) record.notes.push_back(note_of(input.marker_names));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
   return record;
 }

@@ -75,6 +75,18 @@ void write_blocks(const Entities& entities, const std::vector<std::array<std::ui
   }
 }
 
+/// Names of faces, without what would end them.
+void write_names(const std::map<int, std::string>& names, OutputFile& out) {
+  if (names.empty()) return;
+  out << "$PhysicalNames\n" << names.size() << '\n';
+  for (const auto& [marker, name] : names) {
+    out << "2 " << marker << " \"";
+    for (const char c : name) out << (static_cast<unsigned char>(c) < ' ' || c == '"' || c == '$' ? '_' : c);
+    out << "\"\n";
+  }
+  out << "$EndPhysicalNames\n";
+}
+
 /// One block of all nodes, in the first volume.
 void write_node_block(const std::vector<Point3>& vertices, OutputFile& out) {
   out << "$Nodes\n";
@@ -91,6 +103,7 @@ void write_node_block(const std::vector<Point3>& vertices, OutputFile& out) {
 void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out) {
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
   if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+  write_names(mesh.face_names, out);
   out << "$Nodes\n" << mesh.vertices.size() << '\n';
   write_numbered(mesh.vertices, out);
   out << "$EndNodes\n$Elements\n" << mesh.edges.size() + mesh.faces.size() + mesh.tetrahedra.size() << '\n';
@@ -109,6 +122,7 @@ void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
   put_integer(1, out) << "\n$EndMeshFormat\n";
   if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
 
+  write_names(mesh.face_names, out);
   const Box box = mesh.vertices.empty() ? Box() : bounding_box(mesh.vertices);
   out << "$Entities\n";
   for (const std::size_t n : {std::size_t{0}, curves.size(), surfaces.size(), volumes.size()}) put_size(n, out);

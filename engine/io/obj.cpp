@@ -1,8 +1,7 @@
-#include <map>
 #include <optional>
-#include <set>
 
 #include "engine/io/formats.h"
+#include "engine/io/groups.h"
 #include "engine/io/text_scanner.h"
 
 namespace ccdt::io {
@@ -23,41 +22,6 @@ std::uint32_t read_corner(TextScanner& in, const Item& facet, std::size_t vertic
             "correct the index; vertices are numbered from 1 and must come before the facets that use them");
   return static_cast<std::uint32_t>(index > 0 ? index - 1 : count + index);
 }
-
-/// Groups become markers: a name that is a whole number is the marker itself; other names get the unused numbers from 1
-/// up, in order of appearance. Facets before the first group have the marker 0.
-class Groups {
- public:
-  Groups() : names_{"0"} {}
-
-  void enter(std::string_view name) {
-    const auto [entry, is_new] = numbers_.try_emplace(std::string(name), static_cast<int>(names_.size()));
-    if (is_new) names_.emplace_back(name);
-    current_ = entry->second;
-  }
-  int current() const { return current_; }
-
-  /// The markers of the groups, by the numbers that `current` gave.
-  std::vector<int> markers() const {
-    std::set<int> used = {0};
-    for (const std::string& name : names_)
-      if (const auto marker = parse_whole<int>(name)) used.insert(*marker);
-    std::vector<int> markers;
-    int next = 0;
-    for (const std::string& name : names_) {
-      const auto marker = parse_whole<int>(name);
-      while (!marker && used.contains(++next)) {
-      }
-      markers.push_back(marker ? *marker : next);
-    }
-    return markers;
-  }
-
- private:
-  std::vector<std::string> names_;
-  std::map<std::string, int> numbers_;
-  int current_ = 0;
-};
 
 }  // namespace
 
@@ -86,9 +50,7 @@ plc::InputPlc read_obj(const FileBytes& file) {
       in.skip_line();
     }
   }
-  const std::vector<int> markers = groups.markers();
-  for (int& group : plc.triangle_markers) group = markers[static_cast<std::size_t>(group)];
-  for (plc::PolygonFacet& facet : plc.polygon_facets) facet.marker = markers[static_cast<std::size_t>(facet.marker)];
+  groups.give_markers(plc);
   finish_facets(plc);
   return plc;
 }

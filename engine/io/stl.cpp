@@ -7,6 +7,7 @@
 
 #include "engine/base/errors.h"
 #include "engine/io/formats.h"
+#include "engine/io/groups.h"
 #include "engine/io/merge_vertices.h"
 #include "engine/io/text_scanner.h"
 
@@ -138,11 +139,12 @@ std::array<Point3, 3> read_facet(TextScanner& in, const Item& facet) {
 
 plc::InputPlc read_text(const FileBytes& file) {
   plc::InputPlc plc;
+  Groups solids;
   VertexMerger<double> merger(plc.vertices);
   TextScanner in(file, TextScanner::no_comments);
   while (!in.at_end()) {
     expect(in, "start of a solid", "solid");
-    in.skip_line();  // its name, which may be anything
+    solids.enter(in.rest_of_line());  // its name, which may be anything
     while (true) {
       const Item facet{"facet", plc.triangles.size()};
       const std::string_view keyword = next_keyword(in, facet);
@@ -157,9 +159,14 @@ plc::InputPlc read_text(const FileBytes& file) {
       const std::array<Point3, 3> corners = read_facet(in, facet);
       std::ranges::transform(corners, plc.triangles.emplace_back().begin(),
                              [&](const Point3& p) { return merger.index_of(as_array(p)); });
+      plc.triangle_markers.push_back(solids.current());
     }
     in.skip_line();
   }
+  if (solids.count() > 1)
+    solids.give_markers(plc);
+  else
+    plc.triangle_markers.clear();  // one solid has no parts to tell apart
   return plc;
 }
 

@@ -20,7 +20,9 @@ std::vector<std::string> tet_mesh_formats();
 /// they read back bit for bit. Regions, face and edge markers are written too. The file appears completely or not at
 /// all.
 ///
-/// \param format       one of `tet_mesh_formats`, such as "msh4" for a file .msh; empty: that of the extension
+/// \param mesh    the lists of attributes are empty or complete
+/// \param file    is replaced, with those that belong to it
+/// \param format  one of `tet_mesh_formats`, such as "msh4" for a file .msh; empty: that of the extension
 /// \throw OutputError  cannot be written, unknown extension, or an index, a list or a coordinate of the mesh is wrong
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format = {});
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,8 @@ struct InputPlc {
     double largest_deviation = 0;  ///< largest distance of a corner from the plane of its facet
   };
   Warped warped;
+
+  std::map<int, std::string> marker_names;  ///< of facets, where the file names groups of them
 
   std::vector<std::string> notes;  ///< what is unusual in the file but was understood; one sentence each
 

@@ -87,6 +87,7 @@ InputPlc to_input(const InputPlc& given, const plc::UncheckedPlc& soup) {
   input.inside = given.inside;
   input.holes = given.holes;
   input.regions = given.regions;
+  input.marker_names = given.marker_names;
   std::vector<std::uint32_t> number(plc.vertices.size(), 0);
   if (is_surface(given)) {
     for (const auto& corners : triangles.corners)

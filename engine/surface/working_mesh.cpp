@@ -149,6 +149,7 @@ plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input) {
   plc.holes = input.holes;
   plc.regions = input.regions;
   plc.warped = input.warped;
+  plc.marker_names = input.marker_names;
   std::vector<std::uint32_t> of_knot(m.knots.size(), none), of_vertex(m.vertices.size(), none);
   const auto add = [&](const Point3& p) {
     plc.vertices.push_back(p);

@@ -39,6 +39,18 @@ TEST(ReadStl, TextOfSeveralSolidsInAnyCase) {
   EXPECT_EQ(plc.vertices[1].x, 1.5);
 }
 
+TEST(ReadStl, NamedSolidsBecomeMarkers) {
+  const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet\n";
+  const auto solid = [&](const std::string& name) { return "solid " + name + "\n" + facet + "endsolid\n"; };
+  const plc::InputPlc plc = plc_of("a.stl", solid("inlet") + solid("7") + solid("side wall") + solid("inlet"));
+  EXPECT_EQ(plc.triangle_markers, (std::vector<int>{1, 7, 2, 1}));
+  EXPECT_EQ(plc.marker_names, (std::map<int, std::string>{{1, "inlet"}, {2, "side wall"}}));
+  for (const std::string& one : {solid("part"), solid("part") + solid("part"), solid("") + solid("")}) {
+    EXPECT_TRUE(plc_of("a.stl", one).triangle_markers.empty());
+    EXPECT_TRUE(plc_of("a.stl", one).marker_names.empty());
+  }
+}
+
 TEST(ReadStl, ErrorsHaveTheirPlace) {
   expect_refused("a.stl", binary_stl("x", 3, 2), {"234", {}, 184, 2});
   expect_refused("a.stl", binary_stl("solid x", 3, 2), {"3", {}, 184, 2});
@@ -137,6 +149,7 @@ TEST(ReadObj, GroupsBecomeMarkers) {
   const plc::InputPlc plc = plc_of(
       "a.obj", vertices + face + "g top side\n" + face + "o 1\n" + face + "g bottom\n" + face + "g top side\n" + face);
   EXPECT_EQ(plc.triangle_markers, (std::vector<int>{0, 2, 1, 3, 2}));
+  EXPECT_EQ(plc.marker_names, (std::map<int, std::string>{{2, "top side"}, {3, "bottom"}}));
 }
 
 TEST(ReadObj, ErrorsHaveTheirPlace) {
