@@ -65,8 +65,8 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   run.options.edge_length = surface.edge_length;
   ProtectedDomain domain;
   Tetrahedralization t = tetrahedralize(surface.changed ? *surface.changed : input, false, domain, run);
-  steps::improve_mesh(domain, t, run);
   t.mesh.face_names = input.marker_names;
+  steps::improve_mesh(domain, t, run);
   return finish(domain, std::move(t), run);
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <random>
 
 #include "bench/tests/verify_cases.h"
 #include "bench/verify/verify.h"
@@ -52,6 +54,42 @@ MeshedInput on_grid(const InputPlc& input) {
 }
 
 using Foot = std::array<Point3, 2>;
+
+/// A sheet in the cube. Neighboring triangles are flat within the tolerance, and all of them together are not.
+InputPlc cube_with_slightly_bent_sheet(std::mt19937& random) {
+  constexpr int size = 8;
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  const double bend = uniform(0.2e-7, 2e-7);
+  InputPlc input = big_cube(true);
+  const auto first = static_cast<std::uint32_t>(input.vertices.size());
+  for (int i = 0; i <= size; ++i)
+    for (int j = 0; j <= size; ++j) {
+      const double x = 0.25 * i + uniform(-0.1, 0.1), y = 0.25 * j + uniform(-0.1, 0.1);
+      input.vertices.push_back({0.5 + x, 0.5 + y, 1.5 + bend * x * x});
+    }
+  const auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(i * (size + 1) + j); };
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j) {
+      const std::array<std::uint32_t, 4> q = {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)};
+      const unsigned turn = random() % 2;
+      input.triangles.push_back({q[turn], q[turn + 1], q[turn + 2]});
+      input.triangles.push_back({q[turn], q[turn + 2], q[(turn + 3) % 4]});
+    }
+  return input;
+}
+
+TEST(VerifyTouching, SheetsThatAreFlatOnlyInPartsAreFoundAsListed) {
+  std::mt19937 random(1);
+  MeshOptions options;
+  options.lattice = Lattice::none;
+  options.improve.improvement = Improvement::all;
+  for (int i = 0; i < 20; ++i) {
+    SCOPED_TRACE(i);
+    const InputPlc input = cube_with_slightly_bent_sheet(random);
+    const verify::Verification v = verify::verify(input, mesh_plc(input, options).mesh, {});
+    EXPECT_TRUE(v.ok()) << all_lines(v);
+  }
+}
 
 InputPlc cube_with_wall(const Foot& foot, const Point3& up, bool triangles) {
   InputPlc input = big_cube(triangles);

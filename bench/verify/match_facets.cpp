@@ -270,20 +270,35 @@ class InteriorMatcher {
       : topology_(topology), surface_(surface), matches_(matches) {}
 
   /// If several sets of faces span a facet, those that the mesh lists have priority. Whole facets come first, because
-  /// the sheets of a facet need not agree on its inner edges. Then, for facets that are not quite flat, come parts as
-  /// small as the edges of the mesh allow.
+  /// the sheets of a facet need not agree on its inner edges. Then, for facets that are not quite flat, come parts
+  /// whose own triangles the mesh does not list, and parts as small as the edges of the mesh allow.
   void match(const Chains& chains, const std::vector<bool>& features) {
     const auto is_left = [&](std::uint32_t use) { return matches_.found[surface_.piece_of[use]] == FoundAs::nothing; };
+    const auto is_unlisted = [&](std::uint32_t use) { return !is_listed(surface_.piece_of[use]); };
     std::vector<bool> joined(surface_.edges.size());
-    for (const bool whole : {true, false}) {
-      for (std::uint32_t e = 0; e < surface_.edges.size(); ++e)
-        joined[e] = surface_.use_count(e) == 2 && std::ranges::all_of(surface_.uses.of(e), is_left) &&
-                    (chains.missing(e) || (whole && !features[e]));
+    for (const Parts parts : {Parts::whole_facets, Parts::unlisted, Parts::smallest}) {
+      for (std::uint32_t e = 0; e < surface_.edges.size(); ++e) {
+        const auto uses = surface_.uses.of(e);
+        joined[e] = uses.size() == 2 && std::ranges::all_of(uses, is_left) &&
+                    (chains.missing(e) ||
+                     (!features[e] && (parts == Parts::whole_facets ||
+                                       (parts == Parts::unlisted && std::ranges::all_of(uses, is_unlisted)))));
+      }
       match_patches(group_pieces(surface_, chains, joined));
     }
   }
 
  private:
+  enum class Parts : std::uint8_t { whole_facets, unlisted, smallest };
+
+  /// Does the mesh list the piece itself as a face?
+  bool is_listed(std::uint32_t piece) const {
+    if (!surface_.is_triangle(piece)) return false;
+    const auto edges = surface_.edges_of(piece);
+    const std::uint32_t face = find_face(topology_, {edges[0][0], edges[1][0], edges[2][0]});
+    return face != none && topology_.listed[face];
+  }
+
   /// Matches the remaining pieces patch by patch.
   void match_patches(const Patches& patches) {
     for (std::uint32_t n = 0; n < patches.count(); ++n) {
