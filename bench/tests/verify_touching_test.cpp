@@ -64,7 +64,7 @@ InputPlc cube_with_slightly_bent_sheet(std::mt19937& random) {
   const auto first = static_cast<std::uint32_t>(input.vertices.size());
   for (int i = 0; i <= size; ++i)
     for (int j = 0; j <= size; ++j) {
-      const double x = 0.25 * i + uniform(-0.1, 0.1), y = 0.25 * j + uniform(-0.1, 0.1);
+      const double x = 0.25 * i + uniform(-0.04, 0.04), y = 0.25 * j + uniform(-0.04, 0.04);
       input.vertices.push_back({0.5 + x, 0.5 + y, 1.5 + bend * x * x});
     }
   const auto at = [&](int i, int j) { return first + static_cast<std::uint32_t>(i * (size + 1) + j); };

@@ -274,7 +274,10 @@ class InteriorMatcher {
   /// whose own triangles the mesh does not list, and parts as small as the edges of the mesh allow.
   void match(const Chains& chains, const std::vector<bool>& features) {
     const auto is_left = [&](std::uint32_t use) { return matches_.found[surface_.piece_of[use]] == FoundAs::nothing; };
-    const auto is_unlisted = [&](std::uint32_t use) { return !is_listed(surface_.piece_of[use]); };
+    const auto is_unlisted = [&](std::uint32_t use) {
+      const std::uint32_t face = face_of_piece(surface_.piece_of[use]);
+      return face != none && !topology_.listed[face];
+    };
     std::vector<bool> joined(surface_.edges.size());
     for (const Parts parts : {Parts::whole_facets, Parts::unlisted, Parts::smallest}) {
       for (std::uint32_t e = 0; e < surface_.edges.size(); ++e) {
@@ -284,23 +287,28 @@ class InteriorMatcher {
                      (!features[e] && (parts == Parts::whole_facets ||
                                        (parts == Parts::unlisted && std::ranges::all_of(uses, is_unlisted)))));
       }
-      match_patches(group_pieces(surface_, chains, joined));
+      match_patches(group_pieces(surface_, chains, joined), parts);
     }
   }
 
  private:
   enum class Parts : std::uint8_t { whole_facets, unlisted, smallest };
 
-  /// Does the mesh list the piece itself as a face?
-  bool is_listed(std::uint32_t piece) const {
-    if (!surface_.is_triangle(piece)) return false;
+  /// The piece itself as a face of the mesh; `none` if it is not one.
+  std::uint32_t face_of_piece(std::uint32_t piece) const {
+    if (!surface_.is_triangle(piece)) return none;
     const auto edges = surface_.edges_of(piece);
-    const std::uint32_t face = find_face(topology_, {edges[0][0], edges[1][0], edges[2][0]});
+    return find_face(topology_, {edges[0][0], edges[1][0], edges[2][0]});
+  }
+
+  bool is_listed(std::uint32_t piece) const {
+    const std::uint32_t face = face_of_piece(piece);
     return face != none && topology_.listed[face];
   }
 
   /// Matches the remaining pieces patch by patch.
-  void match_patches(const Patches& patches) {
+  void match_patches(const Patches& patches, Parts parts) {
+    const bool needs_listed = parts != Parts::smallest && !topology_.mesh.faces.empty();
     for (std::uint32_t n = 0; n < patches.count(); ++n) {
       const auto pieces = patches.pieces.of(n);
       if (std::ranges::any_of(pieces, [&](std::uint32_t p) { return matches_.found[p] != FoundAs::nothing; })) continue;
@@ -308,7 +316,8 @@ class InteriorMatcher {
       if (is_flat) matches_.planes.push_back({patches.normal[n], patches.center[n]});
       const bool may_have_sheet = is_flat && !patches.open[n];
       if (may_have_sheet && match_by_sheet(patches, n, SheetFaces::listed)) continue;
-      if (match_piece_by_piece(pieces, is_flat) || !may_have_sheet) continue;
+      const bool may_be_whole = !needs_listed || std::ranges::all_of(pieces, [&](auto p) { return is_listed(p); });
+      if ((may_be_whole && match_piece_by_piece(pieces, is_flat)) || !may_have_sheet) continue;
       if (!match_by_sheet(patches, n, SheetFaces::all)) match_by_sheet(patches, n, SheetFaces::without_dead_ends);
     }
   }
