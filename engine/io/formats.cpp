@@ -230,14 +230,14 @@ std::vector<std::string> tet_mesh_formats() {
   return names;
 }
 
-void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& name) {
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format) {
   check_mesh(mesh, file.string());
-  const std::string ending = name.empty() ? lower_ending(file) : "." + name;
-  const TetMeshFormat* format = format_called(ending, mesh_formats);
-  if (!format) fail_to_write(ending, file, mesh_endings);
-  if (format->write_files) return format->write_files(mesh, file);
+  const std::string ending = format.empty() ? lower_ending(file) : "." + format;
+  const TetMeshFormat* const found = format_called(ending, mesh_formats);
+  if (!found) fail_to_write(ending, file, mesh_endings);
+  if (found->write_files) return found->write_files(mesh, file);
   OutputFile out(file);
-  format->write(mesh, out);
+  found->write(mesh, out);
   out.commit();
 }
 
