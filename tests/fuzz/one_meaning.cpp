@@ -1,5 +1,6 @@
 #include "tests/fuzz/one_meaning.h"
 
+#include <chrono>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
@@ -38,9 +39,17 @@ MeshOptions bare() {
   return options;
 }
 
+/// A copy with tiny features can need very many vertices.
+Progress at_most(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  return [end](std::string_view, std::uint64_t, std::uint64_t) {
+    if (std::chrono::steady_clock::now() > end) throw LimitError("meshing takes too long", {}, "give it more time");
+  };
+}
+
 bool is_meshed(const plc::InputPlc& input, const std::string& what) {
   try {
-    const MeshResult result = mesh_plc(input, bare());
+    const MeshResult result = mesh_plc(input, bare(), at_most(5));
     for (const verify::Check& check : verify::verify(input, result.mesh).checks)
       demand(!check.required || check.failed == 0,
              what + ": wrong mesh: " + check.name + ": " + (check.examples.empty() ? "" : check.examples[0]));
