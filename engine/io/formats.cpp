@@ -92,7 +92,7 @@ void check_mesh(const mesh::TetMesh& mesh, const std::string& file) {
     throw OutputError("a coordinate is not finite", place_in(file), "check the mesh");
 }
 
-/// A format has one file, or several.
+/// A format with one file, or with several (`read_files` and `write_files`).
 struct TetMeshFormat {
   std::string_view ending;
   mesh::TetMesh (*read)(const FileBytes&) = nullptr;
@@ -104,12 +104,12 @@ struct TetMeshFormat {
 constexpr TetMeshFormat mesh_formats[] = {
     {".mesh", read_medit_mesh, write_medit_mesh},
     {".meshb", read_meditb_mesh, write_meditb_mesh},
-    {".vtu", nullptr, nullptr, read_vtu_files, write_vtu_files},
+    {.ending = ".vtu", .read_files = read_vtu_files, .write_files = write_vtu_files},
     {".msh", read_gmsh, write_gmsh},
     {".msh4", read_gmsh, write_gmsh4},
-    {".node", nullptr, nullptr, read_tetgen_mesh, write_tetgen_mesh},
-    {".ele", nullptr, nullptr, read_tetgen_mesh, write_tetgen_mesh},
-    {".face", nullptr, nullptr, read_tetgen_mesh, write_tetgen_mesh},
+    {.ending = ".node", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
+    {.ending = ".ele", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
+    {.ending = ".face", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
 };
 
 constexpr const char* mesh_endings =

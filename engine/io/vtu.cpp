@@ -251,6 +251,7 @@ CellList tetrahedra_of(const mesh::TetMesh& mesh) {
 }
 
 CellList boundary_of(const mesh::TetMesh& mesh) {
+  // One more than there are vertices: an empty list means something else.
   CellList cells{
       mesh, {}, std::vector<std::uint32_t>(mesh.vertices.size() + 1, none), 0, mesh.faces.size(), mesh.edges.size()};
   const auto note = [&](const auto& elements) {
