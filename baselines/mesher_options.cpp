@@ -116,7 +116,8 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
     const bool is_used = use != mesher.options.end() && matters(*use, asked);
     if (const MeshOption* const option = find_mesh_option(name)) {
       const bool is_of_surface = (is_remeshed && option->of_remeshing) || (is_refined && option->of_refinement);
-      if ((!is_of_surface && !is_used) || value == usual(name)) continue;
+      const bool has_effect = is_used || is_of_surface || option->of_any_mesher;
+      if (!has_effect || value == usual(name)) continue;
     }
     const bool is_any =
         is_used && use->only_none && value != value_none;  // all values except none have the same effect

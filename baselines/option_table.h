@@ -58,6 +58,7 @@ struct MeshOption {
   bool of_inside = false;      ///< our engine uses it only for interior points
   bool of_refinement = false;  ///< and for `--surface refine`
   bool of_remeshing = false;   ///< has an effect with `--surface remesh`, before any mesher runs
+  bool of_any_mesher = false;  ///< the program obeys it, whatever the mesher
   /// The default, if `MeshOptions` does not give it; empty: it depends on the input.
   std::optional<std::string_view> usual = {};
 };

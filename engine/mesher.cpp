@@ -1,5 +1,6 @@
 #include "engine/mesher.h"
 
+#include <string>
 #include <utility>
 
 #include "engine/base/errors.h"
@@ -14,6 +15,7 @@
 #include "engine/steps/improve_mesh.h"
 #include "engine/steps/make_plc.h"
 #include "engine/steps/protect_domain.h"
+#include "engine/steps/reach_count.h"
 #include "engine/surface/prepare_surface.h"
 
 namespace ccdt {
@@ -53,14 +55,18 @@ MeshResult finish(const ProtectedDomain& domain, Tetrahedralization t, Run& run)
     t.mesh.regions.assign(t.mesh.tetrahedra.size(), *attribute);
   run.counts.vertices = t.mesh.vertices.size();
   run.counts.tetrahedra = t.mesh.tetrahedra.size();
+  check_count(run.counts.tetrahedra, run.options.most_tetrahedra);
   for (const StageCost& cost : run.costs.stages) run.costs.mesh_seconds += cost.seconds;
   run.costs.mesh_seconds -= run.costs[Stage::remesh].seconds;
   return {std::move(t.mesh), std::move(run.counts), run.costs, plc.largest_rounding, plc.idle_holes.size()};
 }
 
 MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
-  const surface::PreparedSurface surface = surface::prepare_surface(
-      input, options.surface, {options.edge_length, options.sharp_angle, options.flatness}, progress);
+  const surface::PreparedSurface surface =
+      surface::prepare_surface(input, options.surface,
+                               {options.edge_length, options.sharp_angle, options.flatness, &options.local,
+                                &options.background, options.most_tetrahedra, options.surface_factor},
+                               progress);
   Run run{options, progress, surface.costs};
   run.options.edge_length = surface.edge_length;
   ProtectedDomain domain;
@@ -76,6 +82,12 @@ Improvement improvement_of(const MeshOptions& options) {
   return options.improve.improvement.value_or(options.lattice == Lattice::none ? Improvement::none : Improvement::all);
 }
 
+void check_count(std::uint64_t tetrahedra, double most) {
+  if (most > 0 && static_cast<double>(tetrahedra) > most)
+    throw LimitError("the mesh has " + std::to_string(tetrahedra) + " tetrahedra, more than allowed", {},
+                     "give longer edges, or allow more tetrahedra");
+}
+
 unsigned number_of_threads(const MeshOptions& options) {
   return options.threads == 0 ? thread_backend::core_count() : options.threads;
 }
@@ -84,7 +96,13 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
   return with_file_in_errors(input.name, [&] {
     plc::check_input(input);
     steps::check_options(options);
-    return with_threads(options.threads, [&] { return mesh_on_threads(input, options, progress); });
+    return with_threads(options.threads, [&] {
+      if (options.tetrahedra == 0) return mesh_on_threads(input, options, progress);
+      return steps::reach_count(
+          options.tetrahedra,
+          [&](double factor) { return mesh_on_threads(input, steps::scaled(options, factor), progress); },
+          [](const MeshResult& result) { return result.mesh.tetrahedra.size(); }, input.name);
+    });
   });
 }
 

@@ -21,6 +21,9 @@ struct MeshResult {
 /// On how many threads `mesh_plc` works with these options.
 unsigned number_of_threads(const MeshOptions& options);
 
+/// \throw LimitError  there are more tetrahedra than `MeshOptions::most_tetrahedra`
+void check_count(std::uint64_t tetrahedra, double most);
+
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
 /// \param input       facets in any units, which also apply to lengths and to the mesh; polygons that are not planar
@@ -30,7 +33,8 @@ unsigned number_of_threads(const MeshOptions& options);
 /// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
 ///                    released
 /// \throw InputError  the input is not a valid PLC, an option is out of range, or remeshing has no edge length
-/// \throw LimitError  a segment would need a split finer than the grid allows, or the mesh would have too many vertices
+/// \throw LimitError  a segment would need a split finer than the grid allows, the mesh would have too many vertices or
+///                    tetrahedra, or no sizes give the wanted number of tetrahedra
 /// \throw MeshError   no valid mesh or new surface was found
 /// \throw ...         any exception of `progress`
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options = {}, const Progress& progress = {});

@@ -1,6 +1,7 @@
 # The engine as a library: its public headers, and what is installed. Public headers include only each other; everything
 # else in this folder may change at any time.
 set(public_headers
+  base/box.h
   base/enum_names.h
   base/errors.h
   base/flatness.h
@@ -28,6 +29,7 @@ set(public_headers
   repair/find_faults.h
   repair/repair_input.h
   sizes/background_sizes.h
+  sizes/local_sizes.h
   steps/mesh_options.h
   surface/options.h
   surface/remesh_surface.h

@@ -7,10 +7,12 @@
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
 #include "baselines/option_table.h"
+#include "baselines/size_field_file.h"
 #include "baselines/stop.h"
 #include "bench/run/fingerprint.h"
 #include "bench/run/numbers.h"
@@ -26,6 +28,7 @@
 #include "engine/plc/edge_length_bounds.h"
 #include "engine/repair/find_faults.h"
 #include "engine/repair/repair_input.h"
+#include "engine/steps/reach_count.h"
 #include "engine/surface/prepare_surface.h"
 #include "reports/check_text.h"
 #include "reports/result_text.h"
@@ -54,8 +57,12 @@ struct MeshCommand {
 
 void check_surface_options(const MeshCommand& command) {
   const bool remesh = command.options.surface == SurfaceRule::remesh;
-  if (remesh && command.options.edge_length == 0)
+  const bool has_sizes =
+      !command.options.background.name.empty() || !command.options.local.name.empty() || !command.options.local.empty();
+  if (remesh && command.options.edge_length == 0 && !has_sizes)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
+  if (command.options.tetrahedra > 0 && command.options.edge_length == 0 && command.mesher != "ccdt")
+    throw CLI::ValidationError("--tetrahedra", "give an edge length to begin with, by --edge-length");
   if (!remesh && !command.repair && !command.surface_output.empty())
     throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh or --repair");
   if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
@@ -81,18 +88,17 @@ void check_files(const MeshCommand& command) {
     throw OutputError("unknown file extension '" + std::filesystem::path(command.output).extension().string() + "'",
                       io::place_in(command.output), "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
   check_can_be_written(command.output);
-  check_are_different(command.input, command.output);
-  check_are_different(command.options.background.name, command.output);
+  const MeshOptions& options = command.options;
+  std::vector<std::string> others = {command.input, options.background.name, options.local.name};
+  for (const std::string& other : others) check_are_different(other, command.output);
+  others.push_back(command.output);
   if (!command.surface_output.empty()) {
     check_surface_output(command.surface_output);
-    for (const std::string& other : {command.input, command.output, command.options.background.name})
-      check_are_different(other, command.surface_output);
+    for (const std::string& other : others) check_are_different(other, command.surface_output);
   }
   if (command.report.empty()) return;
   check_can_be_written(command.report);
-  check_are_different(command.input, command.report);
-  check_are_different(command.options.background.name, command.report);
-  check_are_different(command.output, command.report);
+  for (const std::string& other : others) check_are_different(other, command.report);
 }
 
 std::string note_of(const InputPlc::Warped& warped) {
@@ -121,7 +127,8 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   std::vector<std::string> notes;
   for (const auto& [name, value] : command.given) {
     const baselines::MeshOption* const option = baselines::find_mesh_option(name);
-    if (option == nullptr || name == "surface" || name == "sizes") continue;  // they have messages of their own
+    if (option == nullptr || name == "surface" || option->of_any_mesher || baselines::names_a_file(name))
+      continue;  // they have messages of their own
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
     if (use == chosen.options.end()) {
       if (!(remesh && option->of_remeshing))
@@ -162,6 +169,20 @@ InputPlc repaired(const InputPlc& input, double flatness, const Progress& progre
   return std::move(result.input);
 }
 
+/// Reads the files with sizes that the options name. Numbers on the command line replace those of the file.
+void read_size_files(const MeshCommand& command, MeshOptions& options, bench::RunRecord& record) {
+  const Stopwatch watch(record.read_seconds);
+  if (!options.background.name.empty()) {
+    options.background = io::read_sizes(options.background.name);
+    check_are_different(options.background.mesh_name, command.output);
+  }
+  if (options.local.name.empty()) return;
+  LocalSizes local = baselines::read_size_field(options.local.name);
+  if (command.given.contains("curvature-angle")) local.curvature_angle = options.local.curvature_angle;
+  if (command.given.contains("elements-through")) local.elements_through = options.local.elements_through;
+  options.local = std::move(local);
+}
+
 /// The surface that the mesher gets. What had to be changed is noted: a length that is too long or too short is
 /// probably in the wrong unit.
 ///
@@ -169,8 +190,11 @@ InputPlc repaired(const InputPlc& input, double flatness, const Progress& progre
 /// \throw LimitError  the mesh would have too many vertices; ccdt itself finds that out where only the inside is filled
 InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& options, const Progress& progress,
                   bench::RunRecord& record) {
-  surface::PreparedSurface surface = surface::prepare_surface(
-      input, options.surface, {options.edge_length, options.sharp_angle, options.flatness}, progress);
+  surface::PreparedSurface surface =
+      surface::prepare_surface(input, options.surface,
+                               {options.edge_length, options.sharp_angle, options.flatness, &options.local,
+                                &options.background, options.most_tetrahedra, options.surface_factor},
+                               progress);
   record.read_seconds += surface.costs[Stage::plc].seconds;
   record.costs[Stage::remesh] = surface.costs[Stage::remesh];
   record.input.facets = surface.facets;
@@ -220,8 +244,9 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   record.largest_rounding = result.largest_rounding;
   record.mesher_settings = run.settings;
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
-  if (!options.background.empty() && record.mesher.name != "ccdt")
-    record.notes.push_back("only ccdt uses size functions: " + options.background.name + " was not used");
+  if (record.mesher.name != "ccdt" && command.options.surface != SurfaceRule::remesh)
+    for (const std::string& file : {options.background.name, options.local.name})
+      if (!file.empty()) record.notes.push_back("only ccdt uses size functions: " + file + " was not used");
   record.quality = bench::measure_quality(result.mesh);
   if (command.options.surface == SurfaceRule::keep && improvement_of(options) != Improvement::none &&
       record.quality.r.max > bench::SurfaceLimit::bad_r)
@@ -239,15 +264,39 @@ auto with_advice_on_input(const std::string& file, const Run& run) {
   try {
     return run();
   } catch (const InputError& error) {
+    if (error.place().file != file) throw;
     const std::string advice = "\n  ccdt check " + file + " lists everything that is wrong with it, and can repair it";
     throw InputError(error.what(), error.place(), error.remedy() + advice);
   }
 }
 
+/// What a mesher got, and its mesh.
+struct Meshed {
+  InputPlc surface;  ///< the input, until it is prepared
+  MeshOptions options;
+  baselines::MesherRun run;
+};
+
+/// Prepares the surface and meshes it.
+///
+/// \param factor  of all edge lengths; already in the options
+void mesh_prepared(const MeshCommand& command, double factor, Meshed& meshed, bench::RunRecord& record,
+                   const Progress& progress) {
+  const baselines::Mesher& chosen = baselines::mesher(command.mesher);
+  meshed.options.tetrahedra = 0;
+  meshed.surface = prepared(command, std::move(meshed.surface), meshed.options, progress, record);
+  if (command.options.tetrahedra > 0)
+    record.notes.push_back("all edge lengths were scaled by " + bench::rounded(factor) +
+                           " for the wanted number of tetrahedra; the seconds are those of that mesh alone");
+  record.mesher_settings = baselines::settings_of(chosen, meshed.surface, meshed.options);
+  leave_provisional_record(command, record);
+  meshed.run =
+      with_advice_on_input(command.input, [&] { return chosen.run(meshed.surface, meshed.options, progress); });
+  check_count(meshed.run.result.mesh.tetrahedra.size(), meshed.options.most_tetrahedra);
+}
+
 /// Reads, meshes, measures and writes. At every moment, the record contains what is known of the run.
 void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progress& progress) {
-  const baselines::Mesher& chosen = baselines::mesher(command.mesher);
-
   report(progress, "read", 0, 0);
   double read_seconds = 0;
   InputPlc input = [&] {
@@ -259,26 +308,29 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
   if (command.repair) input = repaired(input, options.flatness, progress, record);
-  input = prepared(command, std::move(input), options, progress, record);
-  if (!options.background.name.empty()) {
-    const Stopwatch watch(record.read_seconds);
-    options.background = io::read_sizes(options.background.name);
-    check_are_different(options.background.mesh_name, command.output);
-  }
+  read_size_files(command, options, record);
 
-  record.mesher_settings = baselines::settings_of(chosen, input, options);
-  leave_provisional_record(command, record);
-
-  const baselines::MesherRun run =
-      with_advice_on_input(command.input, [&] { return chosen.run(input, options, progress); });
+  const bool is_counted = options.tetrahedra > 0;
+  const bench::RunRecord begun = record;
+  const auto mesh_with = [&](double factor) {
+    record = begun;
+    Meshed meshed{is_counted ? input : std::move(input), steps::scaled(options, factor), {}};
+    mesh_prepared(command, factor, meshed, record, progress);
+    return meshed;
+  };
+  const Meshed meshed = is_counted
+                            ? steps::reach_count(
+                                  options.tetrahedra, mesh_with,
+                                  [](const Meshed& m) { return m.run.result.mesh.tetrahedra.size(); }, command.input)
+                            : mesh_with(1);
   record.peak_rss_bytes = bench::peak_rss_bytes();  // the mesher's own, without that of the measurements below
-  record_result(command, options, run, record);
+  record_result(command, meshed.options, meshed.run, record);
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);
-  if (!command.surface_output.empty()) io::write_plc(input, command.surface_output);
+  if (!command.surface_output.empty()) io::write_plc(meshed.surface, command.surface_output);
   PartOfResult surface(command.surface_output);
-  io::write_tet_mesh(run.result.mesh, command.output, command.format);
+  io::write_tet_mesh(meshed.run.result.mesh, command.output, command.format);
   surface.keep();
 }
 

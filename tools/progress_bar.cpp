@@ -67,4 +67,9 @@ void ProgressBar::erase() {
   drawn_ = false;
 }
 
+void ProgressBar::say(const std::string& line) {
+  erase();
+  std::fputs((line + "\n").c_str(), stderr);
+}
+
 }  // namespace ccdt::tools

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/run/numbers.h"
 #include "engine/base/parallel.h"
 #include "engine/base/progress.h"
 #include "tools/limit_errors.h"
@@ -23,6 +24,8 @@ class ProgressBar {
   /// The callback for the work, valid as long as this object lives. Empty if nothing is drawn.
   Progress progress();
   void erase();
+  /// Prints a line for people, above the bar.
+  void say(const std::string& line);
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -44,6 +47,11 @@ auto with_progress(const std::string& file, unsigned threads, const Run& run) {
   ProgressBar bar;
   std::string stage = "read";
   const Progress progress = [&, draw = bar.progress()](std::string_view now, std::uint64_t done, std::uint64_t total) {
+    constexpr std::uint64_t large_mesh = 5'000'000;
+    if (now == "estimate") {
+      if (done > large_mesh) bar.say("about " + bench::with_separators(done) + " tetrahedra will be made");
+      return;
+    }
     if (now != stage) stage = now;
     report(draw, now, done, total);
   };

@@ -9,6 +9,7 @@
 
 #include "baselines/json_schema.h"
 #include "baselines/mesher.h"
+#include "baselines/mesher_options.h"
 #include "bench/run/median_interval.h"
 #include "bench/sweep/sweep_schema.h"
 #include "engine/base/digits.h"
@@ -96,7 +97,7 @@ std::vector<OptionAxis> options_of(const Reader& reader, const Json& parent, con
       reader.fail(at, "a sweep cannot vary this option", baselines::suggestion(name, reader.rules.names));
     OptionAxis axis = {name, values_of(reader, json, at)};
     for (std::size_t i = 0; i < axis.values.size(); ++i) {
-      if (name == "sizes") axis.values[i] = found(reader, axis.values[i]).string();
+      if (baselines::names_a_file(name)) axis.values[i] = found(reader, axis.values[i]).string();
       const std::string fault = reader.rules.fault_of_value(name, axis.values[i]);
       if (!fault.empty()) reader.fail(json.is_array() ? at / i : at, fault, "`ccdt mesh --help` lists the values");
     }

@@ -17,6 +17,7 @@
 #include "engine/base/sort_in_runs.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/find_step.h"
+#include "engine/improve/split_large_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/steiner/remove_steiner_vertices.h"
 #include "engine/tets/shake_cells.h"
@@ -413,6 +414,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
                            mesh::TetMesh& mesh, const Progress& progress) {
   // The cells are the tetrahedra. In large meshes there is no memory for both.
   release(mesh.tetrahedra);
+  const std::vector<VolumeLimit> limits = volume_limits(input.plc, !mesh.regions.empty());
   CellComplex complex(std::move(mesh.faces), mesh.edges, std::move(input.cells), std::move(mesh.regions),
                       std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
@@ -428,7 +430,10 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
     freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
+  // Before improvement, which mends what this does to the shapes; and after it, since it looks at shapes alone.
+  const std::uint64_t split = split_large_cells(complex, limits, progress);
   ImproveCounts counts = improve_cells(complex, freedom, options, progress);
+  counts.inserted_vertices += split + split_large_cells(complex, limits, progress);
   counts.removed_steiner_vertices = removed;
   note_bytes(complex.bytes());
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;

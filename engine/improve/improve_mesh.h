@@ -41,8 +41,8 @@ struct ImproveInput {
 };
 
 /// Removes Steiner vertices from a whole mesh (`SteinerRule`), then improves it (paper, section 5: edge-face swaps and
-/// smoothing). Its boundary, segments, facets and input vertices stay where they are, except for what
-/// `BoundaryRule::slide` and `first_sliding` let move on them.
+/// smoothing), and divides tetrahedra that are larger than their region allows. Its boundary, segments, facets and
+/// input vertices stay where they are, except for what `BoundaryRule::slide` and `first_sliding` let move on them.
 ///
 /// \param points  the vertices in grid units: those of the PLC, Steiner vertices, and interior ones
 /// \param mesh    without coordinates

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "engine/base/count_work.h"
+#include "engine/geometry/predicates.h"
 #include "engine/tets/swaps.h"
 
 namespace ccdt::improve {
@@ -43,6 +44,20 @@ bool keeps_constraints(const CellComplex& x, std::span<const CellId> cells, cons
   return std::ranges::all_of(cells, keeps_corners) && keeps_segments(x, cells, is_there);
 }
 
+/// Plans to replace the cells of a cavity by those between its hull and a new vertex.
+void plan_star(const CellComplex& x, CellId cell, const Point3& apex, std::span<const CellId> cells,
+               const PlanScratch& cavity, Change& change) {
+  const auto vertex = static_cast<std::uint32_t>(x.vertex_count());
+  change.new_vertex = apex;
+  change.old_cells.assign(cells.begin(), cells.end());
+  for (std::size_t i = 0; i < cavity.hull.size(); ++i) {
+    const StarFace& face = cavity.faces[i];
+    const auto [a, b, c] = cavity.hull[i];
+    const double quality = cell_quality(x.goal(), face.a, face.b, face.c, apex);
+    change.new_cells.push_back({{a, b, c, vertex}, x.region(cell), quality});
+  }
+}
+
 /// The wanted quality of the cells around a new vertex: between the bad cell's quality and the goal.
 double wanted_quality(const tets::QualityGoal& goal, double least) {
   return std::max(least, 0.5 * (std::min(least, goal.first()) + goal.first()));
@@ -77,14 +92,23 @@ bool plan_insertion(const CellComplex& x, CellId cell, double least, PlanScratch
   }
   const std::span cells = std::span(cavity.cells.cells()).first(size);
   if (!(worst > least) || !keeps_constraints(x, cells, cavity.hull)) return false;
-  const auto vertex = static_cast<std::uint32_t>(x.vertex_count());
-  change.new_vertex = apex;
-  change.old_cells.assign(cells.begin(), cells.end());
-  for (std::size_t i = 0; i < cavity.hull.size(); ++i) {
-    const StarFace& face = cavity.faces[i];
-    const auto [a, b, c] = cavity.hull[i];
-    change.new_cells.push_back({{a, b, c, vertex}, x.region(cell), cell_quality(goal, face.a, face.b, face.c, apex)});
-  }
+  plan_star(x, cell, apex, cells, cavity, change);
+  return x.all_positive(change);
+}
+
+bool plan_split(const CellComplex& x, CellId cell, bool is_alone, PlanScratch& cavity, Change& change) {
+  change.clear();
+  const Point3 apex = center_of(x, cell);
+  cavity.cells.start(x, cell);
+  const auto is_in_sphere = [&](std::uint32_t code) {
+    if (x.is_wall(code)) return false;
+    const auto& [a, b, c, d] = x.cell(tets::cell_of(x.across(code))).vertices;
+    return insphere(x.point(a), x.point(b), x.point(c), x.point(d), apex) > 0;
+  };
+  if (!is_alone && !cavity.cells.grow(x, is_in_sphere, 0, most_cavity_cells)) return false;
+  list_hull(x, cavity);
+  if (!keeps_constraints(x, cavity.cells.cells(), cavity.hull)) return false;
+  plan_star(x, cell, apex, cavity.cells.cells(), cavity, change);
   return x.all_positive(change);
 }
 

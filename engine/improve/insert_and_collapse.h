@@ -29,4 +29,8 @@ bool plan_collapse(const CellComplex& complex, CellId cell, double least, PlanSc
 /// The new cells are exactly positive.
 bool plan_insertion(const CellComplex& x, CellId cell, double least, PlanScratch& cavity, Change& change);
 
+/// Plans to insert a vertex in the center of a cell, whatever the quality: in place of that cell alone, or also of
+/// those around it whose spheres contain the vertex. The new cells are exactly positive.
+bool plan_split(const CellComplex& x, CellId cell, bool is_alone, PlanScratch& cavity, Change& change);
+
 }  // namespace ccdt::improve

@@ -3,7 +3,10 @@
 #include <array>
 
 #include "engine/base/enum_names.h"
-#include "engine/sizes/background_sizes.h"
+
+namespace ccdt::sizes {
+struct WantedSizes;
+}
 
 namespace ccdt::lattice {
 
@@ -37,9 +40,11 @@ struct LatticeOptions {
   /// Factor for the radii of the smallest spheres around surface triangles and subsegments, which may contain no point;
   /// 1 is the paper's rule, 0 switches it off.
   double sphere_factor = 1;
-  double clearance = usual_clearance;  ///< least distance to the surface, in edge lengths of the lattice there
-  double radius_edge = 2;              ///< Delaunay refinement: the largest circumradius over the shortest edge
-  const sizes::BackgroundSizes* background = nullptr;  ///< in grid units; null or empty: none
+  double clearance = usual_clearance;          ///< least distance to the surface, in edge lengths of the lattice there
+  double radius_edge = 2;                      ///< Delaunay refinement: the largest circumradius over the shortest edge
+  double surface_factor = 1;                   ///< of the edge lengths of the surface, where these are the target
+  double most_tetrahedra = 0;                  ///< refuse to place points for many more; 0: any number
+  const sizes::WantedSizes* wanted = nullptr;  ///< null or empty: no more than that
 };
 
 }  // namespace ccdt::lattice

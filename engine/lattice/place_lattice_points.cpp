@@ -35,10 +35,13 @@ double volume_inside(const DomainSurface& surface) {
 }
 
 /// The size field takes much memory, so its lifetime ends here.
-Octree make_octree(const DomainSurface& surface, const LatticeOptions& options) {
-  const TargetSizes size = target_sizes(surface, options.edge_length, options.grading, options.background);
+Octree make_octree(const DomainSurface& surface, const LatticeOptions& options, const Progress& progress) {
+  const TargetSizes size =
+      target_sizes(surface, options.edge_length, options.grading, options.wanted, options.surface_factor);
   check_number_of_points(surface, size);
-  return build_octree(surface, size, options.kind);
+  Octree tree = build_octree(surface, size, options.kind);
+  check_number_of_tetrahedra(tree, options, progress);
+  return tree;
 }
 
 /// Are all leaves around an inner leaf also inner leaves of its level?
@@ -126,7 +129,7 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
   const DomainSurface surface{any_order.vertices, triangles, subsegments};
   constexpr std::uint64_t steps = 4;
   report(progress, stage, 0, steps);
-  const Octree tree = make_octree(surface, options);
+  const Octree tree = make_octree(surface, options, progress);
   report(progress, stage, 1, steps);
   const std::vector<Site> sites = list_sites(tree, options.kind);
   report(progress, stage, 2, steps);

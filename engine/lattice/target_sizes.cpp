@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -51,7 +52,8 @@ double median(std::vector<Weighted> sizes) {
   return sizes.back().size;
 }
 
-TargetSizes sizes_of_surface(const DomainSurface& surface, double edge_length, double grading) {
+TargetSizes sizes_of_surface(const DomainSurface& surface, double edge_length, double grading,
+                             std::span<const SizedPlace> wanted, double surface_factor) {
   const std::size_t triangles = surface.triangles.size();
   RawVector<SizedPlace> samples;
   samples.reserve(triangles + surface.vertices.size());
@@ -60,7 +62,7 @@ TargetSizes sizes_of_surface(const DomainSurface& surface, double edge_length, d
   RawVector<std::array<double, 3>> lengths(triangles);
   parallel_for(triangles, sample_grain, [&](std::size_t t) {
     const auto [a, b, c] = surface.corners(static_cast<std::uint32_t>(t));
-    lengths[t] = {length(b - a), length(c - b), length(a - c)};
+    lengths[t] = {surface_factor * length(b - a), surface_factor * length(c - b), surface_factor * length(a - c)};
     const double mean = (lengths[t][0] + lengths[t][1] + lengths[t][2]) / 3;
     samples[t] = sample_at((1.0 / 3) * (a + b + c), mean);
   });
@@ -76,10 +78,11 @@ TargetSizes sizes_of_surface(const DomainSurface& surface, double edge_length, d
     const auto& v = surface.triangles[t].vertices;
     for (int i = 0; i < 3; ++i) add_edge(v[i], v[(i + 1) % 3], lengths[t][i]);
   }
-  for (const auto& [a, b] : surface.subsegments) add_edge(a, b, length(surface.vertices[b] - surface.vertices[a]));
+  for (const auto& [a, b] : surface.subsegments)
+    add_edge(a, b, surface_factor * length(surface.vertices[b] - surface.vertices[a]));
   const double reference = edge_length > 0 || everywhere.count == 0 ? edge_length : everywhere.value();
   const double largest = edge_length > 0 || grading == 0 ? reference : HUGE_VAL;
-  if (grading <= 0) return {{largest, grading, {}}, reference};
+  if (grading <= 0) return {{largest, grading, wanted}, reference};
   const auto is_used = [](const Mean& mean) { return mean.count > 0; };
   parallel_pack(
       at_vertex.size(), sample_grain,
@@ -92,25 +95,21 @@ TargetSizes sizes_of_surface(const DomainSurface& surface, double edge_length, d
           if (is_used(at_vertex[v]))
             samples[triangles + place++] = sample_at(surface.vertices[v], at_vertex[v].value());
       });
+  const std::size_t of_surface = samples.size();
+  samples.resize(of_surface + wanted.size());
+  std::ranges::copy(wanted, samples.begin() + static_cast<std::ptrdiff_t>(of_surface));
   return {{largest, grading, samples}, reference};
-}
-
-TargetSizes sizes_of_background(const BackgroundSizes& background, double edge_length, double grading) {
-  const double largest = edge_length > 0 ? edge_length : HUGE_VAL;
-  const double reference = median(weigh_sizes(background, largest));
-  if (!background.tetrahedra.empty()) return {{largest, background}, reference};
-  std::vector<SizedPlace> places;
-  for (std::size_t v = 0; v < background.vertices.size(); ++v)
-    places.push_back({box_of(background.vertices[v]), background.sizes[v]});
-  return {{largest, grading, places}, reference};
 }
 
 }  // namespace
 
 TargetSizes target_sizes(const DomainSurface& surface, double edge_length, double grading,
-                         const BackgroundSizes* background) {
-  if (background != nullptr && !background->empty()) return sizes_of_background(*background, edge_length, grading);
-  return sizes_of_surface(surface, edge_length, grading);
+                         const sizes::WantedSizes* wanted, double surface_factor) {
+  if (wanted == nullptr) return sizes_of_surface(surface, edge_length, grading, {}, surface_factor);
+  if (wanted->background.empty())
+    return sizes_of_surface(surface, edge_length, grading, wanted->places, surface_factor);
+  const double largest = edge_length > 0 ? edge_length : HUGE_VAL;
+  return {{largest, grading, wanted->places, &wanted->background}, median(weigh_sizes(wanted->background, largest))};
 }
 
 }  // namespace ccdt::lattice

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "engine/lattice/domain_surface.h"
-#include "engine/sizes/background_sizes.h"
 #include "engine/sizes/size_field.h"
+#include "engine/sizes/wanted_sizes.h"
 
 namespace ccdt::lattice {
 
@@ -18,12 +18,13 @@ struct TargetSizes {
 /// surface is sampled at its vertices (mean length of the edges there) and the centroids of its triangles (mean of
 /// their edges). With a background of vertices alone: the least over these of (size + grading * distance). With a
 /// background mesh: linear within its tetrahedra (`sizes::InterpolatedSizes`). Either way, at most the edge length, if
-/// one is given.
+/// one is given, and at most what is wanted at other places.
 ///
 /// In grid units. Without a background, a grading of 0 means uniform.
-/// \param edge_length  0: none
-/// \param background   must outlive the result; null or empty: none
+/// \param edge_length     0: none
+/// \param wanted          must outlive the result; null or empty: nothing
+/// \param surface_factor  of the edge lengths of the surface
 TargetSizes target_sizes(const DomainSurface& surface, double edge_length, double grading,
-                         const sizes::BackgroundSizes* background = nullptr);
+                         const sizes::WantedSizes* wanted = nullptr, double surface_factor = 1);
 
 }  // namespace ccdt::lattice

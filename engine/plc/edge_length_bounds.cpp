@@ -32,6 +32,13 @@ double area_of(const InputPlc& input, double unit) {
 
 }  // namespace
 
+std::string rounded_count(double count) {
+  const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(1.0, count))) - 1));
+  char text[64];
+  std::snprintf(text, sizeof text, "%.0f", unit * std::round(count / unit));
+  return text;
+}
+
 void throw_too_many_vertices(double count, const std::string& file) {
   char text[32] = "far more than 2^32";
   if (count < 1e100) std::snprintf(text, sizeof text, "about %.2g", count);
@@ -50,11 +57,15 @@ double longest_edge(const InputPlc& input) {
   return std::ldexp(length({scaled(diagonal.x), scaled(diagonal.y), scaled(diagonal.z)}), exponent);
 }
 
-void check_edges_of_surface(const InputPlc& input, double edge_length) {
+void check_edges_of_surface(const InputPlc& input, double edge_length, double most_triangles) {
   // There are two triangles per vertex.
   const double area_per_vertex = std::sqrt(3) / 2;
   const double count = area_of(input, edge_length) / area_per_vertex;
   if (!(count <= most_vertices)) throw_too_many_vertices(count, input.name);
+  if (most_triangles > 0 && 2 * count > most_triangles)
+    throw LimitError("the surface alone would have about " + rounded_count(2 * count) +
+                         " triangles, more than the tetrahedra that are allowed",
+                     {.file = input.name}, "give longer edges, or allow more tetrahedra");
 }
 
 }  // namespace ccdt::plc

@@ -9,6 +9,9 @@ namespace ccdt::plc {
 /// The most vertices that a mesh can have: ids have 32 bits, and one of them means none.
 inline constexpr double most_vertices = 4294967295.0;
 
+/// An estimate for messages: two digits, and no exponent.
+std::string rounded_count(double count);
+
 /// \param count       the approximate number of vertices that the edge length needs; may be infinite
 /// \param file        the name of the input, if it is known
 /// \throw LimitError  always
@@ -17,7 +20,8 @@ inline constexpr double most_vertices = 4294967295.0;
 /// The diagonal of the bounding box: no edge is longer.
 double longest_edge(const InputPlc& input);
 
-/// \throw LimitError  even triangles with edges of this length would have too many vertices
-void check_edges_of_surface(const InputPlc& input, double edge_length);
+/// \param most_triangles  0: any number
+/// \throw LimitError      even triangles with edges of this length would have too many vertices, or be too many
+void check_edges_of_surface(const InputPlc& input, double edge_length, double most_triangles = 0);
 
 }  // namespace ccdt::plc

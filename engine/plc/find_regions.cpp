@@ -285,6 +285,7 @@ void mark_inside(const InputPlc& input, const Plc& plc, const TriangleSet& trian
       throw_input_error(plc, name + " is outside everything that the facets enclose", seed_remedy,
                         {input.regions[i].seed});
     map.regions[region].attribute = input.regions[i].attribute;
+    map.regions[region].largest_volume = input.regions[i].max_volume;
     has_seed[region] = true;
   }
   number_regions(input, has_seed, map);

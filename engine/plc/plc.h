@@ -39,8 +39,9 @@ struct Facet {
 
 /// A part of space that the facets do not divide further. Region 0 is the one that reaches infinity.
 struct Region {
-  bool inside = false;  ///< belongs to the domain
-  int attribute = 0;    ///< attribute of the mesh's cells in it
+  bool inside = false;        ///< belongs to the domain
+  int attribute = 0;          ///< attribute of the mesh's cells in it
+  double largest_volume = 0;  ///< of the mesh's cells in it, in the units of the input; 0: any
 };
 
 /// A piecewise linear complex, checked and ready to be meshed (paper, section 2).

@@ -418,7 +418,7 @@ class Refiner {
 }  // namespace
 
 RefinedPlc refine_plc(const plc::Plc& plc, const RefineOptions& options, const Progress& progress) {
-  const sizes::SizeField field = sizes::find_thin_places(plc, options.edge_length, options.grading,
+  const sizes::SizeField field = sizes::find_thin_places(plc, options.edge_length, options.grading, options.wanted,
                                                          options.most_tetrahedra / tetrahedra_per_triangle);
   Refiner refiner(plc, field, progress);
   refiner.run();

@@ -6,13 +6,15 @@
 #include "engine/base/progress.h"
 #include "engine/plc/plc.h"
 #include "engine/protection/segment_chains.h"
+#include "engine/sizes/wanted_sizes.h"
 
 namespace ccdt::refine {
 
 struct RefineOptions {
-  double edge_length = 0;        ///< longest wanted edges, in grid units; must be positive
-  double grading = 0.5;          ///< growth of the edge length per unit of distance from places where it is short
-  double most_tetrahedra = 2e6;  ///< about how many tetrahedra thin places may cause
+  double edge_length = 0;          ///< longest wanted edges, in grid units; must be positive
+  double grading = 0.5;            ///< growth of the edge length per unit of distance from places where it is short
+  double most_tetrahedra = 2e6;    ///< about how many tetrahedra thin places may cause
+  sizes::WantedSizes wanted = {};  ///< where edges should be shorter
 };
 
 /// A PLC with more vertices and the same geometry.

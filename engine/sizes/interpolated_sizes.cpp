@@ -130,6 +130,20 @@ bool InterpolatedSizes::is_below(const Box& box, double bound) const {
   return !meets && is_below_outside(box, bound);
 }
 
+double InterpolatedSizes::at(const Point3& p) const {
+  double least = HUGE_VAL;
+  tetrahedra_.for_each_meeting(box_of(p), [&](std::uint32_t t) { least = std::min(least, least_in(box_of(p), t)); });
+  if (least < HUGE_VAL) return least;
+  double nearest = HUGE_VAL;
+  vertices_.any_below(
+      nearest, [&](const Box& box, double) { return squared_distance(box, p); },
+      [&](const BoxTree::Item& item) {
+        nearest = squared_distance(item.box, p), least = item.size;
+        return false;
+      });
+  return least;
+}
+
 /// A vertex is nearest to no point of the box if its least distance to the box exceeds another's greatest distance.
 bool InterpolatedSizes::is_below_outside(const Box& box, double bound) const {
   double farthest = HUGE_VAL;

@@ -19,6 +19,9 @@ class InterpolatedSizes {
   /// Is the size below `bound` anywhere in the box? Only the part of the box inside the mesh counts, if there is one.
   bool is_below(const Box& box, double bound) const;
 
+  /// The size at a point; the least one if tetrahedra overlap there.
+  double at(const Point3& p) const;
+
  private:
   double least_in(const Box& box, std::uint32_t tetrahedron) const;
   bool is_below_outside(const Box& box, double bound) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -19,21 +20,22 @@ struct SizedPlace {
 /// The target edge length in space: what lattices, refinement and remeshing ask for.
 class SizeField {
  public:
-  /// The least of `largest` and, over some places, (size + grading * distance).
-  SizeField(double largest, double grading, std::span<const SizedPlace> places);
-  /// The least of `largest` and the sizes of a mesh, which are linear within its tetrahedra.
+  /// The least of `largest`, over some places (size + grading * distance) and, if there is a background, its sizes.
   ///
-  /// \param background  has tetrahedra; must outlive this
-  SizeField(double largest, const BackgroundSizes& background);
+  /// \param background  must outlive this; linear within its tetrahedra. If it has none, its vertices are such places
+  ///                    too. Null or empty: none
+  SizeField(double largest, double grading, std::span<const SizedPlace> places,
+            const BackgroundSizes* background = nullptr);
 
   /// The target is nowhere above this; may be infinite.
   double largest() const { return largest_; }
-  double grading() const { return grading_; }
+  /// The target grows by at most this per unit of distance; infinite if it has sizes of a mesh.
+  double grading() const { return interpolated_ ? HUGE_VAL : grading_; }
 
   /// Is the target below `bound` anywhere in the box?
   bool is_below(const Box& box, double bound) const;
 
-  /// The target at a point; only for a field of places.
+  /// The target at a point.
   ///
   /// \param bound  an upper bound of the target; the tighter, the faster
   double at(const Point3& p, double bound) const;
@@ -53,7 +55,8 @@ class SizeWalk {
 
   double at(const Point3& p) {
     // The target grows at most with the grading, so the last one bounds this one, up to rounding.
-    const double bound = (1 + 1e-12) * (last_size_ + field_.grading() * length(p - last_));
+    const double moved = length(p - last_), growth = moved > 0 ? field_.grading() * moved : 0;
+    const double bound = (1 + 1e-12) * (last_size_ + growth);
     last_size_ = field_.at(p, bound), last_ = p;
     return last_size_;
   }

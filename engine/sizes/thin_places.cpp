@@ -206,14 +206,17 @@ std::vector<SizedPlace> measure_thin_places(const plc::Plc& plc, double largest)
 
 }  // namespace
 
-SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, double most_triangles) {
+SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, const WantedSizes& wanted,
+                           double most_triangles) {
   const std::vector<SizedPlace> places = measure_thin_places(plc, largest);
   const auto field_of = [&](double least) {
     std::vector<SizedPlace> limited = places;
     limit_from_below(limited, least);
-    return SizeField(largest, grading, thinned(limited));
+    limited = thinned(limited);
+    limited.insert(limited.end(), wanted.places.begin(), wanted.places.end());
+    return SizeField(largest, grading, limited, &wanted.background);
   };
-  const double even = count_triangles(plc, SizeField(largest, grading, {}));
+  const double even = count_triangles(plc, SizeField(largest, grading, wanted.places, &wanted.background));
   const double most = even + std::min(most_triangles, affordable_triangles(even));
   const auto is_affordable = [&](double least) { return count_triangles(plc, field_of(least), most) <= most; };
   double shortest = largest;

@@ -2,6 +2,7 @@
 
 #include "engine/plc/plc.h"
 #include "engine/sizes/size_field.h"
+#include "engine/sizes/wanted_sizes.h"
 
 namespace ccdt::sizes {
 
@@ -14,7 +15,9 @@ namespace ccdt::sizes {
 /// of the largest length, then the thinnest count as thicker and the shortest as longer.
 ///
 /// \param largest         in grid units
+/// \param wanted          what the user wants besides: the least of all lengths counts
 /// \param most_triangles  about how many triangles these places may cause
-SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, double most_triangles);
+SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, const WantedSizes& wanted,
+                           double most_triangles);
 
 }  // namespace ccdt::sizes

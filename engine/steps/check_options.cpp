@@ -5,6 +5,7 @@
 
 #include "engine/base/check_arguments.h"
 #include "engine/base/errors.h"
+#include "engine/sizes/wanted_places.h"
 
 namespace ccdt::steps {
 namespace {
@@ -15,6 +16,9 @@ void check_numbers(const MeshOptions& options) {
   check_number("number of thin tetrahedra", options.thin_tetrahedra, 1);
   check_number("edge length", options.edge_length);
   check_number("grading", options.grading);
+  check_number("factor of the surface's edge lengths", options.surface_factor, 1e-6, 1e6);
+  check_number("number of tetrahedra", options.tetrahedra);
+  check_number("largest number of tetrahedra", options.most_tetrahedra);
   check_number("flatness", options.flatness);
   check_number("sphere factor", options.sphere_factor);
   check_number("clearance", options.clearance);
@@ -55,6 +59,10 @@ void check_options(const MeshOptions& options) {
   check_numbers(options);
   check_strategies(options);
   check_background(options.background);
+  sizes::check_local_sizes(options.local);
+  if (!options.local.empty() && options.grading == 0)
+    throw InputError("local edge lengths need a grading: without one, they would hold everywhere",
+                     {.file = options.local.name}, "give a grading, such as 0.5, the default");
 }
 
 }  // namespace ccdt::steps

@@ -1,5 +1,6 @@
 #include "engine/steps/improve_mesh.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "engine/improve/improve_mesh.h"
@@ -17,7 +18,8 @@ std::size_t first_steiner_vertex(const ProtectedDomain& domain, const Run& run) 
 bool improves(const ProtectedDomain& domain, const Run& run) {
   const bool removes =
       run.options.improve.steiner == SteinerRule::remove && first_steiner_vertex(domain, run) < domain.first_interior;
-  return removes || improvement_of(run.options) != Improvement::none;
+  return removes || improvement_of(run.options) != Improvement::none ||
+         std::ranges::any_of(domain.plc.regions, [](const plc::Region& r) { return r.largest_volume > 0; });
 }
 
 void improve_mesh(ProtectedDomain& domain, Tetrahedralization& t, Run& run) {

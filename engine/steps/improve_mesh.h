@@ -8,7 +8,7 @@ namespace ccdt::steps {
 /// Does anything remain to be done to the constrained Delaunay tetrahedralization?
 bool improves(const ProtectedDomain& domain, const Run& run);
 
-/// Removes Steiner vertices and bad tetrahedra, as requested by the options, and counts again.
+/// Removes Steiner vertices and bad or large tetrahedra, as requested by the options, and counts again.
 void improve_mesh(ProtectedDomain& domain, Tetrahedralization& t, Run& run);
 
 }  // namespace ccdt::steps

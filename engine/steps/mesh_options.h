@@ -17,6 +17,8 @@
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 #include "engine/protection/options.h"
+#include "engine/sizes/background_sizes.h"
+#include "engine/sizes/local_sizes.h"
 #include "engine/surface/options.h"
 
 namespace ccdt {
@@ -38,6 +40,9 @@ using plc::InputPlc;
 using plc::PolygonFacet;
 using protection::Protection;
 using sizes::BackgroundSizes;
+using sizes::LocalSize;
+using sizes::LocalSizes;
+using sizes::SizeFunction;
 using surface::SurfaceRule;
 using tets::Objective;
 
@@ -64,8 +69,12 @@ struct MeshOptions {
   double radius_edge = 2;                       ///< see LatticeOptions
   unsigned threads = 0;                         ///< how many work at the same time; 0: one per core. Same mesh.
   ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`
-  /// A size function, in the units of the input; it replaces the edge lengths of the surface.
+  /// A size function, in the units of the input. For the inside, it replaces the edge lengths of the surface.
   BackgroundSizes background = {};
+  LocalSizes local = {};       ///< where edges should be shorter; needs a grading
+  double surface_factor = 1;   ///< of the edge lengths of the surface, where these are the target for the inside
+  double tetrahedra = 0;       ///< scale all sizes until the mesh has this many, within five percent; 0: do not
+  double most_tetrahedra = 0;  ///< refuse to make more, if possible before they are made; 0: any number
 };
 
 struct MeshCounts {

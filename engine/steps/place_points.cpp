@@ -12,32 +12,30 @@
 namespace ccdt::steps {
 namespace {
 
-BackgroundSizes in_grid_units(BackgroundSizes background, const DyadicGrid& grid) {
-  for (Point3& p : background.vertices) p = (1 / grid.unit) * (p - grid.origin);
-  for (double& size : background.sizes) size /= grid.unit;
-  return background;
-}
-
 /// The points of the lattice, or of Delaunay refinement.
 lattice::LatticePoints place_any(const plc::Plc& plc, const protection::ProtectedDelaunay& surface,
-                                 const facets::FacetMesh& facets, const MeshOptions& options,
-                                 const Progress& progress) {
+                                 const facets::FacetMesh& facets, const Run& run) {
+  const MeshOptions& options = run.options;
   RawVector<lattice::SurfaceTriangle> triangles(facets.triangles.size());
   parallel_for(triangles.size(), 4096, [&](std::size_t i) {
     const plc::Facet& facet = plc.facets[facets.facet[i]];
     triangles[i] = {facets.triangles[i], plc.regions[facet.above].inside, plc.regions[facet.below].inside};
   });
   const std::vector<std::array<VertexId, 2>> subsegments = surface.chains.pieces();
-  const BackgroundSizes background = in_grid_units(options.background, plc.grid);
-  const lattice::LatticeOptions lattice{options.lattice,   options.edge_length / plc.grid.unit,
-                                        options.grading,   options.sphere_factor,
-                                        options.clearance, options.radius_edge,
-                                        &background};
+  const lattice::LatticeOptions lattice{options.lattice,
+                                        options.edge_length / plc.grid.unit,
+                                        options.grading,
+                                        options.sphere_factor,
+                                        options.clearance,
+                                        options.radius_edge,
+                                        options.surface_factor,
+                                        options.most_tetrahedra,
+                                        &run.wanted};
   const std::vector<Point3> vertices = points_of(surface.delaunay);
   const lattice::DomainSurface domain{vertices, triangles, subsegments};
   if (options.lattice == Lattice::refinement)
-    return lattice::place_circumcenters(domain, surface.delaunay, lattice, progress);
-  return lattice::place_lattice_points(domain, lattice, progress);
+    return lattice::place_circumcenters(domain, surface.delaunay, lattice, run.progress);
+  return lattice::place_lattice_points(domain, lattice, run.progress);
 }
 
 }  // namespace
@@ -47,7 +45,7 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const facets::FacetMesh
   const MeshOptions& options = run.options;
   if (options.lattice == Lattice::none) return {};
   return run.measured(Stage::lattice, [&] {
-    lattice::LatticePoints lattice = place_any(plc, surface, facets, options, run.progress);
+    lattice::LatticePoints lattice = place_any(plc, surface, facets, run);
     run.counts.dropped_interior_vertices = lattice.points.size();
     const auto avoided =
         options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;

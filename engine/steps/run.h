@@ -2,6 +2,7 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/stage_scope.h"
+#include "engine/sizes/wanted_sizes.h"
 #include "engine/steps/mesh_options.h"
 
 namespace ccdt::steps {
@@ -11,6 +12,7 @@ struct Run {
   MeshOptions options;
   const Progress& progress;
   StageCosts costs = {};
+  sizes::WantedSizes wanted = {};
   MeshCounts counts = {};
 
   /// Runs a part of a step, and adds its cost to that of the stage.

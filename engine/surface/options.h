@@ -4,6 +4,8 @@
 
 #include "engine/base/enum_names.h"
 #include "engine/base/flatness.h"
+#include "engine/sizes/background_sizes.h"
+#include "engine/sizes/local_sizes.h"
 
 namespace ccdt::surface {
 
@@ -33,6 +35,17 @@ struct RemeshOptions {
   double sharp_angle = usual_sharp_angle;
 
   double flatness = usual_flatness;  ///< see PlcOptions
+
+  // Where edges should be shorter; null or empty: nowhere.
+  const sizes::LocalSizes* local = nullptr;
+  const sizes::BackgroundSizes* background = nullptr;
+
+  double most_tetrahedra = 0;  ///< refuse a new surface that alone has more triangles; 0: any number
+  double usual_factor = 1;     ///< of the default edge length, see `prepare_surface`
+
+  bool has_sizes() const {
+    return (local != nullptr && !local->empty()) || (background != nullptr && !background->empty());
+  }
 };
 
 }  // namespace ccdt::surface

@@ -18,6 +18,7 @@
 #include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/sizes/wanted_places.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
@@ -259,16 +260,29 @@ void remesh_near(WorkingMesh& m, const std::vector<SizedPlace>& places, const Pr
   for (std::size_t v = 0; v < vertices.size(); ++v) m.vertices[v].is_frozen = vertices[v].is_frozen;
 }
 
+/// Where the user and the regions want shorter edges, in the units of the input.
+std::vector<SizedPlace> wanted_places_of(const plc::InputPlc& input, const plc::Plc& plc,
+                                         const RemeshOptions& options) {
+  const sizes::LocalSizes none;
+  std::vector<SizedPlace> places =
+      sizes::wanted_places(input, plc, options.local != nullptr ? *options.local : none,
+                           options.edge_length / plc.grid.unit, to_radians(options.sharp_angle));
+  for (SizedPlace& place : places)
+    place = {{plc.grid.to_world(place.box.low), plc.grid.to_world(place.box.high)}, plc.grid.unit * place.size};
+  return places;
+}
+
 plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress) {
   plc::check_input(input);
   check_options(input, options);
-  const plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
+  plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
+  if (options.local != nullptr) sizes::set_volumes(*options.local, plc);
   const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
   const sizes::SizeField shape = lengths_of_shape(plc, original, features, options.edge_length);
-  std::vector<SizedPlace> halved;
-  sizes::SizeField lengths(options.edge_length, length_growth, halved);
+  std::vector<SizedPlace> shorter = wanted_places_of(input, plc, options);
+  sizes::SizeField lengths(options.edge_length, length_growth, shorter, options.background);
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
     WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, shape, frozen);
@@ -285,8 +299,8 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
         freeze(original, places, std::ldexp(1, attempt), frozen);
         break;
       }
-      for (const SizedPlace& p : places) halved.push_back({expanded(p.box, halved_around * p.size), 0.5 * p.size});
-      lengths = sizes::SizeField(options.edge_length, length_growth, halved);
+      for (const SizedPlace& p : places) shorter.push_back({expanded(p.box, halved_around * p.size), 0.5 * p.size});
+      lengths = sizes::SizeField(options.edge_length, length_growth, shorter, options.background);
       remesh_near(mesh, places, progress);
     }
   }

@@ -109,8 +109,8 @@ std::size_t expect_all_refined(const Shape& shape, const LatticeOptions& options
   points.insert(points.end(), added.begin(), added.end());
   const delaunay::Delaunay d = delaunay::build_delaunay(points);
   const lattice::Octree tree = build_octree(
-      surface_of(shape),
-      lattice::target_sizes(surface_of(shape), options.edge_length, options.grading, options.background), options.kind);
+      surface_of(shape), lattice::target_sizes(surface_of(shape), options.edge_length, options.grading, options.wanted),
+      options.kind);
   std::size_t good = 0;
   for (std::uint32_t c = 0; c < d.cells.size(); ++c) {
     if (!d.is_finite(c)) continue;
@@ -248,9 +248,9 @@ sizes::BackgroundSizes fine_middle(double unit, double coarse, double fine) {
 
 TEST(Circumcenters, FollowTheSizesOfABackground) {
   const Shape shape = cube(6);
-  sizes::BackgroundSizes background = fine_middle(shape.unit, 1, 0.2);
+  sizes::WantedSizes wanted{{}, fine_middle(shape.unit, 1, 0.2)};
   LatticeOptions options = refinement(1.5);
-  options.background = &background;
+  options.wanted = &wanted;
   expect_all_refined(shape, options);
   const auto in_middle = [&] {
     return std::ranges::count_if(refine(shape, options), [&](const Point3& p) { return length(p) < 1.5 * shape.unit; });
@@ -258,10 +258,10 @@ TEST(Circumcenters, FollowTheSizesOfABackground) {
   const auto graded = in_middle();
   EXPECT_GT(graded, 100);
   // Within the octahedron, sizes are linear; beyond, they are those of the nearest vertex.
-  background.tetrahedra = {{6, 8, 10, 7}, {6, 10, 9, 7}, {6, 9, 11, 7}, {6, 11, 8, 7}};
+  wanted.background.tetrahedra = {{6, 8, 10, 7}, {6, 10, 9, 7}, {6, 9, 11, 7}, {6, 11, 8, 7}};
   expect_all_refined(shape, options);
   EXPECT_GT(in_middle(), graded);
-  background.sizes.assign(background.sizes.size(), 0.9 * shape.unit);
+  wanted.background.sizes.assign(wanted.background.sizes.size(), 0.9 * shape.unit);
   EXPECT_LT(5 * in_middle(), graded);
 }
 

@@ -126,7 +126,7 @@ TEST(SizeField, IsTheLeastOverPlacesOfSizePlusGradingTimesDistance) {
 
 TEST(SizeField, OfABackgroundIsTheLeastOverVerticesOfSizePlusGradingTimesDistance) {
   const Shape shape = cube(2);
-  const sizes::BackgroundSizes two{{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}};
+  const sizes::WantedSizes two{{}, {{}, {}, {{0, 0, 0}, {100, 0, 0}}, {}, {1, 3}}};
   const sizes::SizeField field = lattice::target_sizes(surface_of(shape), 0, 0.5, &two).field;
   EXPECT_NEAR(least_target(field, {{0, 0, 0}, {0, 0, 0}}), 1, 1e-9);
   EXPECT_NEAR(least_target(field, {{0, 10, 0}, {0, 10, 0}}), 6, 1e-9);
@@ -138,7 +138,8 @@ TEST(SizeField, OfABackgroundIsBoundedByTheEdgeLength) {
   const Shape shape = cube(2);
   const sizes::BackgroundSizes background = background_cube(2, 1, [](const Point3& p) { return 3 + 2 * p.x; });
   for (const sizes::BackgroundSizes& b : {background, without_tetrahedra(background)}) {
-    const auto [field, reference] = lattice::target_sizes(surface_of(shape), 1.5, 0.5, &b);
+    const sizes::WantedSizes wanted{{}, b};
+    const auto [field, reference] = lattice::target_sizes(surface_of(shape), 1.5, 0.5, &wanted);
     EXPECT_NEAR(least_target(field, {{0.9, 0, 0}, {1, 0.1, 0.1}}), 1.5, 1e-9);
     EXPECT_NEAR(least_target(field, {{-1, 0, 0}, {-0.9, 0.1, 0.1}}), 1, 1e-9);
     EXPECT_EQ(reference, 1.5);
@@ -149,13 +150,13 @@ TEST(SizeFunction, ThatIsConstantMakesTheLatticeOfThatEdgeLength) {
   const Shape shape = cube(6);
   for (const double part : {0.3, 0.45, 0.7}) {
     const double edge_length = part * shape.unit;
-    const sizes::BackgroundSizes constant =
-        background_cube(3, 4 * shape.unit, [&](const Point3&) { return edge_length; });
+    const sizes::WantedSizes constant{{},
+                                      background_cube(3, 4 * shape.unit, [&](const Point3&) { return edge_length; })};
     for (const lattice::Lattice kind : lattices) {
       lattice::LatticeOptions options{kind, edge_length, 0};
       const auto wanted = shape.place(options);
       options = {kind, 0, 0.5};
-      options.background = &constant;
+      options.wanted = &constant;
       EXPECT_EQ(shape.place(options), wanted);
     }
   }
@@ -166,9 +167,9 @@ TEST(SizeFunction, ThatIsLinearIsFollowedWithinTheSquareRootOfTwo) {
   const double half = 6 * shape.unit;
   const auto size_at = [&](const Point3& p) { return shape.unit * (0.7 + 0.5 * p.x / half); };
   for (const int n : {1, 9}) {  // a coarse background says the same as a fine one
-    const sizes::BackgroundSizes background = background_cube(n, half, size_at);
+    const sizes::WantedSizes wanted{{}, background_cube(n, half, size_at)};
     lattice::LatticeOptions options;
-    options.background = &background;
+    options.wanted = &wanted;
     options.sphere_factor = 0;
     const auto points = shape.place(options);
     std::size_t compared = 0;
@@ -186,25 +187,29 @@ TEST(SizeFunction, ThatIsLinearIsFollowedWithinTheSquareRootOfTwo) {
 
 TEST(SizeFunction, OfVerticesAloneIsFineAroundTheOneThatIs) {
   const Shape shape = cube(12);
-  const sizes::BackgroundSizes background{
-      {}, {}, {shape.unit * Point3{2, 2, 2}, shape.unit * Point3{-4, -4, -4}}, {}, {0.1 * shape.unit, 2 * shape.unit}};
+  const sizes::WantedSizes wanted{{},
+                                  {{},
+                                   {},
+                                   {shape.unit * Point3{2, 2, 2}, shape.unit * Point3{-4, -4, -4}},
+                                   {},
+                                   {0.1 * shape.unit, 2 * shape.unit}}};
   lattice::LatticeOptions options;
-  options.background = &background;
+  options.wanted = &wanted;
   options.grading = 0.5;
   std::size_t fine = 0;
   for (const Point3& p : shape.place(options))
-    if (squared_length(p - background.vertices[0]) < std::pow(0.2 * shape.unit, 2)) ++fine;
-  const double wanted = std::sqrt(2.0) * 4.0 / 3 * std::numbers::pi * std::pow(0.2 / 0.15, 3);
-  EXPECT_GT(static_cast<double>(fine), wanted / 3);
-  EXPECT_LT(static_cast<double>(fine), wanted * 6);
+    if (squared_length(p - wanted.background.vertices[0]) < std::pow(0.2 * shape.unit, 2)) ++fine;
+  const double count = std::sqrt(2.0) * 4.0 / 3 * std::numbers::pi * std::pow(0.2 / 0.15, 3);
+  EXPECT_GT(static_cast<double>(fine), count / 3);
+  EXPECT_LT(static_cast<double>(fine), count * 6);
 }
 
 TEST(SizeFunction, TakesThePlaceOfTheSurfacesOwnEdgeLengths) {
   const Shape coarse = cube(2), fine = cube(8);  // the same cube in grid units, twice
-  const sizes::BackgroundSizes background =
-      background_cube(2, coarse.unit, [&](const Point3&) { return coarse.unit * 0.125; });
+  const sizes::WantedSizes wanted{{},
+                                  background_cube(2, coarse.unit, [&](const Point3&) { return coarse.unit * 0.125; })};
   lattice::LatticeOptions options;
-  options.background = &background;
+  options.wanted = &wanted;
   options.sphere_factor = 0;
   EXPECT_EQ(coarse.place(options), fine.place(options));
   EXPECT_GT(coarse.place(options).size(), 1000u);
@@ -212,9 +217,9 @@ TEST(SizeFunction, TakesThePlaceOfTheSurfacesOwnEdgeLengths) {
 
 TEST(SizeFunction, ThatAsksForTooMuchIsDeclinedBeforeItFillsTheMemory) {
   const Shape shape = cube(2);
-  const sizes::BackgroundSizes tiny = background_cube(1, shape.unit, [&](const Point3&) { return 1e-4 * shape.unit; });
+  const sizes::WantedSizes tiny{{}, background_cube(1, shape.unit, [&](const Point3&) { return 1e-4 * shape.unit; })};
   lattice::LatticeOptions options;
-  options.background = &tiny;
+  options.wanted = &tiny;
   EXPECT_THROW(shape.place(options), LimitError);
 }
 
