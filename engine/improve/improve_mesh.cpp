@@ -430,10 +430,12 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
     freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
-  // Before improvement, which mends what this does to the shapes; and after it, since it looks at shapes alone.
-  const std::uint64_t split = split_large_cells(complex, limits, progress);
+  // First, so that improvement mends the shapes, but not if large triangles were kept: then it would try long, in vain.
+  // And last, since improvement looks at shapes alone.
+  constexpr double most_mended = 0.1;  // of all cells
+  const std::uint64_t split = split_large_cells(complex, limits, most_mended, progress);
   ImproveCounts counts = improve_cells(complex, freedom, options, progress);
-  counts.inserted_vertices += split + split_large_cells(complex, limits, progress);
+  counts.inserted_vertices += split + split_large_cells(complex, limits, 1, progress);
   counts.removed_steiner_vertices = removed;
   note_bytes(complex.bytes());
   if (complex.change_count() > 0) mesh.constrained_delaunay = false;

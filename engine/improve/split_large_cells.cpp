@@ -77,13 +77,15 @@ std::vector<VolumeLimit> volume_limits(const plc::Plc& plc, bool has_attributes)
   return limits;
 }
 
-std::uint64_t split_large_cells(CellComplex& complex, const std::vector<VolumeLimit>& limits,
+std::uint64_t split_large_cells(CellComplex& complex, const std::vector<VolumeLimit>& limits, double most_share,
                                 const Progress& progress) {
   if (limits.empty()) return 0;
   Splitter splitter(complex, limits);
   std::vector<CellId> large, made;
   for (std::size_t c = 0; c < complex.cell_count(); ++c)
     if (splitter.is_large(CellId(c))) large.push_back(CellId(c));
+  const auto cells = static_cast<double>(complex.cell_count() - complex.dead_count());
+  if (static_cast<double>(large.size()) > most_share * cells) return 0;
   std::uint64_t count = 0;
   while (!large.empty()) {
     const CellId cell = large.back();

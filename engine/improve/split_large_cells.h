@@ -22,9 +22,13 @@ std::vector<VolumeLimit> volume_limits(const plc::Plc& plc, bool has_attributes)
 
 /// Inserts vertices into cells that are larger than their limit until there are none.
 ///
-/// \return             how many vertices were inserted
+/// \param complex     the mesh
+/// \param limits      of its regions
+/// \param most_share  nothing happens if a larger share of the cells is too large
+/// \param progress    of the stage "improve"
+/// \return            how many vertices were inserted
 /// \throw LimitError  a cell is too flat to be divided
-std::uint64_t split_large_cells(tets::CellComplex& complex, const std::vector<VolumeLimit>& limits,
+std::uint64_t split_large_cells(tets::CellComplex& complex, const std::vector<VolumeLimit>& limits, double most_share,
                                 const Progress& progress);
 
 }  // namespace ccdt::improve

@@ -12,7 +12,6 @@
 #include "engine/base/raw_vector.h"
 #include "engine/geometry/filters.h"
 #include "engine/lattice/inside_test.h"
-#include "engine/plc/edge_length_bounds.h"
 
 namespace ccdt::lattice {
 
@@ -415,25 +414,6 @@ bool is_inside(const Octree& tree, const DomainSurface& surface, const Point3& p
     if (const auto answer = answer_in(tree.nodes[path.back()])) return *answer;
   }
   return false;
-}
-
-double estimated_tetrahedra(const Octree& tree, Lattice kind) {
-  constexpr double share_at_surface = 0.35;
-  double leaves = 0;
-  for (const OctreeNode& node : tree.nodes)
-    if (node.is_leaf() && node.place != NodePlace::outside)
-      leaves += node.place == NodePlace::inside ? 1 : share_at_surface;
-  const double edge = edge_length_of_cell(kind, 1);
-  return leaves * 6 * std::sqrt(2.0) / (edge * edge * edge);
-}
-
-void check_number_of_tetrahedra(const Octree& tree, const LatticeOptions& options, const Progress& progress) {
-  constexpr double largest_error = 1.3;
-  const double estimate = estimated_tetrahedra(tree, options.kind);
-  report(progress, "estimate", static_cast<std::uint64_t>(estimate), 0);
-  if (options.most_tetrahedra > 0 && estimate > largest_error * options.most_tetrahedra)
-    throw LimitError("the mesh would have about " + plc::rounded_count(estimate) + " tetrahedra, more than allowed", {},
-                     "give longer edges, or allow more tetrahedra");
 }
 
 Octree build_octree(const DomainSurface& surface, const TargetSizes& size, Lattice kind) {

@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "engine/base/progress.h"
 #include "engine/base/raw_vector.h"
 #include "engine/lattice/domain_surface.h"
 #include "engine/lattice/options.h"
@@ -88,15 +87,6 @@ struct Octree {
 ///
 /// \throw LimitError  more leaves than a program can index
 Octree build_octree(const DomainSurface& surface, const TargetSizes& size, Lattice kind);
-
-/// About how many tetrahedra the points in the leaves of a lattice make: one for each tetrahedron's volume inside, and
-/// fewer at the surface, where points keep away from it.
-double estimated_tetrahedra(const Octree& tree, Lattice kind);
-
-/// Reports the estimate as the stage "estimate".
-///
-/// \throw LimitError  it exceeds the option by more than an estimate may be wrong
-void check_number_of_tetrahedra(const Octree& tree, const LatticeOptions& options, const Progress& progress);
 
 /// Is a point of a node on the surface strictly inside the domain? Exact. If no ray in the whole tree decides, the
 /// answer is no: then a point may be missing, but no point is wrong.

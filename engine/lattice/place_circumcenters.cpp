@@ -104,7 +104,6 @@ class Refinement {
         target_sizes(surface, options.edge_length, options.grading, options.wanted, options.surface_factor);
     check_number_of_points(surface, size);
     tree_ = build_octree(surface, size, options.kind);
-    check_number_of_tetrahedra(tree_, options, progress);
     for (unsigned level = 0; level <= tree_.depth; ++level) {
       const double target = edge_length_of_cell(options.kind, tree_.length(2u << (tree_.depth - level)));
       levels_.push_back({options.clearance * target, radius_per_edge * radius_per_edge * target * target});

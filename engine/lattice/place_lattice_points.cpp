@@ -34,13 +34,23 @@ double volume_inside(const DomainSurface& surface) {
   return volume;
 }
 
+/// Before the points take memory. Near the surface, most of them may be dropped.
+void check_number_of_leaves(const Octree& tree, const LatticeOptions& options) {
+  constexpr double largest_error = 100;
+  const double edge = edge_length_of_cell(options.kind, 1), tetrahedra_of_leaf = 6 * std::sqrt(2.0) / std::pow(edge, 3);
+  const auto leaves = static_cast<double>(std::ranges::count_if(
+      tree.nodes, [](const OctreeNode& node) { return node.is_leaf() && node.place == NodePlace::inside; }));
+  if (leaves * tetrahedra_of_leaf > largest_error * options.most_tetrahedra)
+    plc::throw_too_many_tetrahedra(leaves * tetrahedra_of_leaf);
+}
+
 /// The size field takes much memory, so its lifetime ends here.
-Octree make_octree(const DomainSurface& surface, const LatticeOptions& options, const Progress& progress) {
+Octree make_octree(const DomainSurface& surface, const LatticeOptions& options) {
   const TargetSizes size =
       target_sizes(surface, options.edge_length, options.grading, options.wanted, options.surface_factor);
   check_number_of_points(surface, size);
   Octree tree = build_octree(surface, size, options.kind);
-  check_number_of_tetrahedra(tree, options, progress);
+  if (options.most_tetrahedra > 0) check_number_of_leaves(tree, options);
   return tree;
 }
 
@@ -129,7 +139,7 @@ LatticePoints place_lattice_points(const DomainSurface& any_order, const Lattice
   const DomainSurface surface{any_order.vertices, triangles, subsegments};
   constexpr std::uint64_t steps = 4;
   report(progress, stage, 0, steps);
-  const Octree tree = make_octree(surface, options, progress);
+  const Octree tree = make_octree(surface, options);
   report(progress, stage, 1, steps);
   const std::vector<Site> sites = list_sites(tree, options.kind);
   report(progress, stage, 2, steps);

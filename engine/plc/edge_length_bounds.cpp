@@ -30,13 +30,19 @@ double area_of(const InputPlc& input, double unit) {
   return twice / 2;
 }
 
-}  // namespace
-
+/// For messages: two digits, and no exponent.
 std::string rounded_count(double count) {
   const double unit = std::pow(10, std::max(0.0, std::floor(std::log10(std::max(1.0, count))) - 1));
   char text[64];
   std::snprintf(text, sizeof text, "%.0f", unit * std::round(count / unit));
   return text;
+}
+
+}  // namespace
+
+void throw_too_many_tetrahedra(double estimate) {
+  throw LimitError("the mesh would have about " + rounded_count(estimate) + " tetrahedra, more than allowed", {},
+                   "give longer edges, or allow more tetrahedra");
 }
 
 void throw_too_many_vertices(double count, const std::string& file) {

@@ -7,6 +7,7 @@
 #include "engine/base/raw_vector.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/lattice/place_circumcenters.h"
+#include "engine/plc/edge_length_bounds.h"
 #include "engine/protection/make_room.h"
 
 namespace ccdt::steps {
@@ -38,6 +39,18 @@ lattice::LatticePoints place_any(const plc::Plc& plc, const protection::Protecte
   return lattice::place_lattice_points(domain, lattice, run.progress);
 }
 
+/// An interior vertex has about 24 tetrahedra in a good mesh, one on the surface fewer than half of them.
+///
+/// \throw LimitError  the estimate exceeds the option by more than it is usually wrong
+void check_number_of_tetrahedra(std::size_t on_surface, std::size_t inside, const Run& run) {
+  constexpr double per_inner_vertex = 6.2, per_outer_vertex = 2.8, largest_error = 1.15;
+  const double estimate =
+      per_inner_vertex * static_cast<double>(inside) + per_outer_vertex * static_cast<double>(on_surface);
+  report(run.progress, "estimate", static_cast<std::uint64_t>(estimate), 0);
+  const double most = run.options.most_tetrahedra;
+  if (most > 0 && estimate > largest_error * most) plc::throw_too_many_tetrahedra(estimate);
+}
+
 }  // namespace
 
 lattice::LatticePoints place_points(const plc::Plc& plc, const facets::FacetMesh& facets,
@@ -51,6 +64,7 @@ lattice::LatticePoints place_points(const plc::Plc& plc, const facets::FacetMesh
         options.sphere_factor >= 1 ? protection::Avoided::smallest_spheres : protection::Avoided::nothing;
     keep_only(protection::make_room(lattice.points, plc, options.protection, surface, avoided, run.progress), lattice);
     run.counts.dropped_interior_vertices -= lattice.points.size();
+    check_number_of_tetrahedra(surface.delaunay.vertices.size(), lattice.points.size(), run);
     return lattice;
   });
 }
