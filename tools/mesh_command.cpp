@@ -77,10 +77,8 @@ void check_surface_output(const std::filesystem::path& file) {
 }
 
 void check_files(const MeshCommand& command) {
-  if (command.format.empty() && !io::is_tet_mesh_file(command.output))
-    throw OutputError("unknown file extension '" + std::filesystem::path(command.output).extension().string() + "'",
-                      io::place_in(command.output), "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
-  check_can_be_written(command.output);
+  io::check_tet_mesh_output(command.output, command.format);
+  check_folder_can_be_written(command.output);
   check_are_different(command.input, command.output);
   check_are_different(command.options.background.name, command.output);
   if (!command.surface_output.empty()) {
@@ -343,11 +341,12 @@ constexpr const char* mesh_footer =
     "  ccdt mesh part.stl -o part.mesh --lattice none --steiner keep\n";
 
 void add_files(CLI::App& verb, MeshCommand& command) {
-  verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")
+  verb.add_option("INPUT", command.input, std::string("surface or PLC: ") + read_plc_endings)
       ->required();
-  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .node")->required();
+  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .inp .xdmf .polymesh .node")->required();
   verb.add_option("--format", command.format,
-                  "format of the mesh, if not that of its extension: msh4 is Gmsh 4.1 (binary), msh Gmsh 2.2 (text)")
+                  "format of the mesh, if not that of its extension: msh4 is Gmsh 4.1 (binary), msh Gmsh 2.2 (text), "
+                  "polymesh a folder of OpenFOAM")
       ->check(CLI::IsMember(io::tet_mesh_formats()));
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);

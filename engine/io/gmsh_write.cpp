@@ -28,15 +28,11 @@ void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& eleme
 }
 
 /// The geometric entities of one dimension by their markers, each with its elements. Nodes belong to an entity, so
-/// there is one even if there are no elements.
-using Entities = std::map<int, std::vector<std::uint32_t>>;
-
-Entities entities_of(std::size_t elements, const std::vector<int>& markers, bool at_least_one = false) {
-  Entities entities;
-  if (at_least_one && elements == 0) entities.try_emplace(0);
-  for (std::size_t i = 0; i < elements; ++i)
-    entities[attribute_of(markers, i)].push_back(static_cast<std::uint32_t>(i));
-  return entities;
+/// there is a volume even if there are no tetrahedra.
+ElementGroups volumes_of(const mesh::TetMesh& mesh) {
+  ElementGroups volumes = group_elements(mesh.tetrahedra.size(), mesh.regions);
+  if (volumes.empty()) volumes.try_emplace(0);
+  return volumes;
 }
 
 OutputFile& put_integer(std::int32_t value, OutputFile& out) {
@@ -48,7 +44,7 @@ OutputFile& put_size(std::size_t value, OutputFile& out) {
 
 /// "tag box physical-tags bounding-entities" for each entity, numbered from 1. All have the box of the whole mesh. A
 /// marker of 0 is written, too, although it means no group: meshio wants a physical tag for all entities or for none.
-void write_entities(const Entities& entities, const Box& box, OutputFile& out) {
+void write_entities(const ElementGroups& entities, const Box& box, OutputFile& out) {
   std::int32_t tag = 0;
   for (const auto& [marker, elements] : entities) {
     put_integer(++tag, out);
@@ -62,7 +58,7 @@ void write_entities(const Entities& entities, const Box& box, OutputFile& out) {
 /// For each entity a block "dimension tag type count", with "number nodes ..." for each element. The numbers of the
 /// elements continue `before` in the order of the mesh, so that a reader can put them into that order.
 template <std::size_t Corners>
-void write_blocks(const Entities& entities, const std::vector<std::array<std::uint32_t, Corners>>& elements,
+void write_blocks(const ElementGroups& entities, const std::vector<std::array<std::uint32_t, Corners>>& elements,
                   std::int32_t type, std::size_t before, OutputFile& out) {
   std::int32_t tag = 0;
   for (const auto& [marker, members] : entities) {
@@ -115,9 +111,8 @@ void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out) {
 }
 
 void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
-  const Entities curves = entities_of(mesh.edges.size(), mesh.edge_markers),
-                 surfaces = entities_of(mesh.faces.size(), mesh.face_markers),
-                 volumes = entities_of(mesh.tetrahedra.size(), mesh.regions, true);
+  const ElementGroups curves = group_elements(mesh.edges.size(), mesh.edge_markers),
+                      surfaces = group_elements(mesh.faces.size(), mesh.face_markers), volumes = volumes_of(mesh);
   out << "$MeshFormat\n4.1 1 8\n";
   put_integer(1, out) << "\n$EndMeshFormat\n";
   if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
@@ -126,7 +121,7 @@ void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
   const Box box = mesh.vertices.empty() ? Box() : bounding_box(mesh.vertices);
   out << "$Entities\n";
   for (const std::size_t n : {std::size_t{0}, curves.size(), surfaces.size(), volumes.size()}) put_size(n, out);
-  for (const Entities* entities : {&curves, &surfaces, &volumes}) write_entities(*entities, box, out);
+  for (const ElementGroups* entities : {&curves, &surfaces, &volumes}) write_entities(*entities, box, out);
   out << "\n$EndEntities\n";
 
   write_node_block(mesh.vertices, out);

@@ -8,17 +8,24 @@
 
 namespace ccdt::io {
 
-/// Can `write_tet_mesh` write files with this extension? Check it before hours of work.
+/// Can `write_tet_mesh` write files with this extension?
 bool is_tet_mesh_file(const std::filesystem::path& file);
+
+/// Checks before hours of work that `write_tet_mesh` knows the format, and that nothing else has the name.
+///
+/// \param format  as for `write_tet_mesh`
+/// \throw OutputError  unknown extension; a folder is where a file will be, or another folder where a polyMesh will be
+void check_tet_mesh_output(const std::filesystem::path& file, const std::string& format = {});
 
 /// The names of all formats: their extensions without the dot.
 std::vector<std::string> tet_mesh_formats();
 
 /// Writes a mesh; the extension determines the format, unless one is given: .mesh (Medit, text), .meshb (Medit,
 /// binary), .vtu (VTK, compressed; faces and edges in a second file .boundary.vtu), .msh (Gmsh 2.2, text), .msh4
-/// (Gmsh 4.1, binary), .node, .ele or .face (TetGen: all three and .edge are written). Coordinates are written so that
-/// they read back bit for bit. Regions, face and edge markers are written too. The file appears completely or not at
-/// all.
+/// (Gmsh 4.1, binary), .inp (Abaqus and CalculiX), .xdmf (FEniCS; faces in a second file .boundary.xdmf), .polymesh (a
+/// folder polyMesh of OpenFOAM), .node, .ele or .face (TetGen: all three and .edge are written). Coordinates are written
+/// so that they read back bit for bit, except in .inp, which allows 20 characters for each. Regions, face and edge
+/// markers are written too; .xdmf and .polymesh hold no edges. The file or folder appears completely or not at all.
 ///
 /// \param mesh    the lists of attributes are empty or complete
 /// \param file    is replaced, with those that belong to it

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <climits>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -9,36 +8,17 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/io/formats.h"
+#include "engine/io/mesh_surface.h"
 #include "engine/io/vtk_arrays.h"
 #include "engine/io/vtk_bytes.h"
+#include "engine/io/vtk_values.h"
 
 namespace ccdt::io {
 
 namespace {
 
 // VTK's types of cells
-constexpr std::uint8_t vertex = 1, poly_vertex = 2, line = 3, triangle = 5, tetrahedron = 10;
-
-/// The length of the ranges of points and cells that one thread reads at a time.
-constexpr std::size_t range_length = 16384;
-
-std::vector<Point3> read_points(const VtkArrays& arrays) {
-  const auto array = arrays.required("Points", "");
-  const StoredNumbers<double> xyz = arrays.read<double>(array);
-  arrays.check_size(array, xyz.size(), 3 * arrays.claimed("NumberOfPoints"));
-  std::vector<Point3> points(xyz.size() / 3);
-  const auto read_bad = [&](std::size_t i) {
-    std::array<double, 3> at;
-    xyz.read(3 * i, 3 * i + 3, at.data());
-    points[i] = {at[0], at[1], at[2]};
-    return !std::ranges::all_of(at, [](double x) { return std::isfinite(x); });
-  };
-  if (const auto bad = parallel_select(points.size(), range_length, read_bad); !bad.empty())
-    arrays.fail(arrays.begin_of(array),
-                "vertex " + std::to_string(bad[0]) + ": a coordinate is not a finite number (NaN or infinite)",
-                "repair this vertex, or export the file again");
-  return points;
-}
+constexpr std::uint8_t vtk_vertex = 1, vtk_poly_vertex = 2, vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10;
 
 struct VtuCell {
   std::size_t number;
@@ -58,10 +38,10 @@ struct VtuCells {
 
   /// Of a cell of this type, as in `VtuCell`.
   std::size_t kind(std::size_t cell, std::int64_t type) const {
-    if (type == tetrahedron) return 0;
-    if (type == triangle) return 1;
-    if (type == line) return 2;
-    if (type != vertex && type != poly_vertex)
+    if (type == vtk_tetrahedron) return 0;
+    if (type == vtk_triangle) return 1;
+    if (type == vtk_line) return 2;
+    if (type != vtk_vertex && type != vtk_poly_vertex)
       refuse(cell, "cells of type " + std::to_string(type) + " are not supported",
              "write linear tetrahedra, triangles and lines only");
     return 3;
@@ -88,14 +68,6 @@ struct VtuCells {
     return its;
   }
 };
-
-/// Calls visit(begin, end) for short ranges that cover a range. Their numbers are converted before they are used.
-constexpr std::size_t few = 512;
-template <class Visit>
-void for_few(std::size_t begin, std::size_t end, const Visit& visit) {
-  for (; begin < end; begin += few) visit(begin, std::min(end, begin + few));
-}
-using Few = std::array<std::int64_t, few>;
 
 /// Calls visit(cell) for a range of cells.
 template <class Visit>
@@ -143,7 +115,7 @@ void enter_cells(const VtuCells& cells, std::size_t begin, std::size_t end, Kind
 void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
   const std::size_t size = cells.types.size();
   std::vector<KindCounts> starts = parallel_chunks(
-      size, range_length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
+      size, vtk_range_length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
   KindCounts sum = {};
   for (KindCounts& start : starts)
     for (std::size_t kind = 0; kind < sum.size(); ++kind) sum[kind] += std::exchange(start[kind], sum[kind]);
@@ -151,29 +123,8 @@ void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
   mesh.faces.resize(sum[1]), mesh.face_markers.resize(sum[1]);
   mesh.edges.resize(sum[2]), mesh.edge_markers.resize(sum[2]);
   parallel_for(starts.size(), 1, [&](std::size_t i) {
-    enter_cells(cells, i * range_length, std::min(size, (i + 1) * range_length), starts[i], mesh);
+    enter_cells(cells, i * vtk_range_length, std::min(size, (i + 1) * vtk_range_length), starts[i], mesh);
   });
-}
-
-/// The attribute of cells with this name; none unless there is such an array with one whole number per cell.
-StoredNumbers<std::int64_t> read_attributes(const VtkArrays& arrays, const char* name, std::size_t count) {
-  const auto array = arrays.find("CellData", name);
-  if (!array) return {};
-  auto values = arrays.read<std::int64_t>(array);
-  arrays.check_size(array, values.size(), count);
-  const auto find_large = [&](std::size_t range_begin, std::size_t range_end, std::vector<std::size_t>& large) {
-    Few some;
-    for_few(range_begin, range_end, [&](std::size_t begin, std::size_t end) {
-      values.read(begin, end, some.data());
-      for (std::size_t i = begin; i < end; ++i)
-        if (!std::in_range<int>(some[i - begin])) large.push_back(i);
-    });
-  };
-  if (const auto large = parallel_collect<std::size_t>(count, range_length, find_large); !large.empty())
-    arrays.fail(arrays.begin_of(array),
-                "cell " + std::to_string(large[0]) + ": its " + name + " does not fit in 32 bits",
-                "use smaller numbers");
-  return values;
 }
 
 VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
@@ -182,8 +133,8 @@ VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
   VtuCells cells{arrays, vertices, read("connectivity"), read("offsets"), read("types"), {}, {}};
   arrays.check_size(arrays.required("Cells", "offsets"), cells.offsets.size(), count);
   arrays.check_size(arrays.required("Cells", "types"), cells.types.size(), count);
-  cells.regions = read_attributes(arrays, "region", count);
-  cells.markers = read_attributes(arrays, "marker", count);
+  cells.regions = read_vtk_attributes(arrays, "region", count);
+  cells.markers = read_vtk_attributes(arrays, "marker", count);
   return cells;
 }
 
@@ -237,7 +188,7 @@ struct CellList {
     return end <= faces ? 3 * end : faces + 2 * end;
   }
 
-  std::uint8_t type(std::size_t cell) const { return tetrahedra > 0 ? tetrahedron : cell < faces ? triangle : line; }
+  std::uint8_t type(std::size_t cell) const { return tetrahedra > 0 ? vtk_tetrahedron : cell < faces ? vtk_triangle : vtk_line; }
 
   /// The region of a tetrahedron, or the marker of a face or an edge.
   std::int32_t attribute(std::size_t cell) const {
@@ -335,7 +286,7 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
 mesh::TetMesh read_vtu(const FileBytes& file) {
   const VtkArrays arrays(file);
   mesh::TetMesh mesh;
-  mesh.vertices = read_points(arrays);
+  mesh.vertices = read_vtk_points(arrays);
   const VtuCells cells = read_cells(arrays, mesh.vertices.size());
   try {
     enter_all_cells(cells, mesh);
@@ -346,6 +297,10 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
   if (const auto claim = arrays.find("FieldData", "constrained_delaunay"))
     mesh.constrained_delaunay = is_one(arrays.read<std::int64_t>(claim));
   return mesh;
+}
+
+plc::InputPlc read_vtu_plc(const FileBytes& file) {
+  return surface_of(read_vtu(file));
 }
 
 void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out) {
