@@ -36,7 +36,8 @@ void add_if_there(const std::filesystem::path& file, Paths& files) {
 Paths files_of_plc(const std::filesystem::path& file) {
   const std::string ending = lower_ending(without_gzip(file));
   Paths files = {file};
-  if ((ending == ".poly" || ending == ".smesh") && is_there(file) && has_no_vertices(file)) files.push_back(sibling(file, ".node"));
+  if ((ending == ".poly" || ending == ".smesh") && is_there(file) && has_no_vertices(file))
+    files.push_back(sibling(file, ".node"));
   return files;
 }
 

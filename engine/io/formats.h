@@ -9,6 +9,7 @@
 #include "engine/io/files.h"
 #include "engine/io/gzip.h"
 #include "engine/io/write_lines.h"
+#include "engine/mesh/element_nodes.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 
@@ -59,12 +60,12 @@ mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file);
 void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out);
 void write_meditb_mesh(const mesh::TetMesh& mesh, OutputFile& out);
 /// Version 2.2 in text, which most programs read.
-void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out);
+void write_gmsh(const mesh::ElementNodes& nodes, OutputFile& out);
 /// Version 4.1 in binary.
-void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out);
+void write_gmsh4(const mesh::ElementNodes& nodes, OutputFile& out);
 /// An input file of Abaqus and CalculiX: tetrahedra in a set for each region; for each marker of faces a surface and a
 /// set of nodes, for each marker of edges a set of nodes.
-void write_abaqus(const mesh::TetMesh& mesh, OutputFile& out);
+void write_abaqus(const mesh::ElementNodes& nodes, OutputFile& out);
 /// A folder polyMesh of OpenFOAM: a patch for each marker on the boundary, a zone of faces for each one inside, and
 /// zones of cells if there are several regions. Vertices that no tetrahedron has are left out.
 ///
@@ -74,19 +75,19 @@ void write_poly_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& fol
 void check_replaces_poly_mesh(const std::filesystem::path& folder);
 /// XDMF with all numbers in the text: the tetrahedra with their `region`, and beside it .boundary.xdmf with the faces
 /// and their `marker`. Both have all vertices.
-void write_xdmf_files(const mesh::TetMesh& mesh, const std::filesystem::path& file);
+void write_xdmf_files(const mesh::ElementNodes& nodes, const std::filesystem::path& file);
 /// The tetrahedra with their `region`.
-void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out);
+void write_vtu_tetrahedra(const mesh::ElementNodes& nodes, OutputFile& out);
 /// The faces and edges on facets and segments with their `marker`, and their points with their `vtu_point_vertex`.
-void write_vtu_boundary(const mesh::TetMesh& mesh, OutputFile& out);
+void write_vtu_boundary(const mesh::ElementNodes& nodes, OutputFile& out);
 /// Writes the tetrahedra, and beside them a file .boundary.vtu (even an empty one, so that none of an older mesh
 /// remains). In one file, a viewer would draw each face twice.
-void write_vtu_files(const mesh::TetMesh& mesh, const std::filesystem::path& file);
+void write_vtu_files(const mesh::ElementNodes& nodes, const std::filesystem::path& file);
 /// Writes a file, and another one beside it that has this ending. Both appear or none.
-void write_with_boundary(const mesh::TetMesh& mesh, const std::filesystem::path& file, const char* ending,
-                         void (*write_tetrahedra)(const mesh::TetMesh&, OutputFile&),
-                         void (*write_boundary)(const mesh::TetMesh&, OutputFile&));
-/// The array with the vertex of the mesh for each point.
+void write_with_boundary(const mesh::ElementNodes& nodes, const std::filesystem::path& file, const char* ending,
+                         void (*write_tetrahedra)(const mesh::ElementNodes&, OutputFile&),
+                         void (*write_boundary)(const mesh::ElementNodes&, OutputFile&));
+/// The array with the node of the mesh for each point.
 inline constexpr const char* vtu_point_vertex = "vertex";
 /// Writes .node, .ele, .face and .edge (even empty ones, so that no file of an older mesh remains).
 void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);

@@ -28,8 +28,9 @@ class Inflater {
     bool is_whole = false;
     while (position_ < file_.bytes.size() || !is_whole) {
       if (size == bytes.size()) {
-        if (size == most) fail("it is more than " + std::to_string(largest_inflation) + " times as large when inflated",
-                               "inflate it with gunzip if you trust it");
+        if (size == most)
+          fail("it is more than " + std::to_string(largest_inflation) + " times as large when inflated",
+               "inflate it with gunzip if you trust it");
         bytes.resize(std::min(most, std::max(2 * size, 4 * file_.bytes.size())));
       }
       is_whole = inflate_some(bytes, size);

@@ -12,9 +12,8 @@ namespace {
 
 void add_boundary_faces(mesh::TetMesh& mesh) {
   const FaceMap listed(mesh.faces, mesh.vertices.size());
-  std::ranges::copy_if(mesh::boundary_faces(mesh), std::back_inserter(mesh.faces), [&](const auto& face) {
-    return listed.find(face[0], face[1], face[2]).index == none;
-  });
+  std::ranges::copy_if(mesh::boundary_faces(mesh), std::back_inserter(mesh.faces),
+                       [&](const auto& face) { return listed.find(face[0], face[1], face[2]).index == none; });
   mesh.face_markers.resize(mesh.faces.size(), 0);
 }
 

@@ -137,8 +137,8 @@ class PolyMeshWriter {
     write_file("boundary", "polyBoundaryMesh", [&](OutputFile& out) {
       out << patches.size() << "\n(\n";
       for (const auto& [marker, range] : patches)
-        out << marker_names_.at(marker) << "\n{\n    type patch;\n    nFaces " << range.second
-            << ";\n    startFace " << range.first << ";\n}\n";
+        out << marker_names_.at(marker) << "\n{\n    type patch;\n    nFaces " << range.second << ";\n    startFace "
+            << range.first << ";\n}\n";
       out << ")\n";
     });
   }
@@ -151,7 +151,8 @@ class PolyMeshWriter {
       out << regions.size() << "\n(\n";
       for (const auto& [region, cells] : regions) {
         out << names.name_of(region, "REGION_") << "\n{\n    type cellZone;\n    cellLabels List<label> ";
-        write_list(cells.size(), [&list = cells](std::size_t i, auto& text) { text << list[i]; }, out);
+        write_list(
+            cells.size(), [&list = cells](std::size_t i, auto& text) { text << list[i]; }, out);
         out << ";\n}\n";
       }
       out << ")\n";

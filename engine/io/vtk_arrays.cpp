@@ -76,7 +76,8 @@ bool is_appended(pugi::xml_node array) {
 VtkArrays::VtkArrays(const FileBytes& file, const char* type) : file_(file) {
   load_outline();
   header_ = document_.child("VTKFile");
-  if (xml_attribute(header_, "type") != type) fail(0, "this is not a VTK XML file of the type " + std::string(type), outline_remedy);
+  if (xml_attribute(header_, "type") != type)
+    fail(0, "this is not a VTK XML file of the type " + std::string(type), outline_remedy);
   piece_ = header_.child(type).child("Piece");
   if (!piece_) fail(0, "it has no Piece", outline_remedy);
   if (piece_.next_sibling("Piece"))

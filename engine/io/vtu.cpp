@@ -18,7 +18,8 @@ namespace ccdt::io {
 namespace {
 
 // VTK's types of cells
-constexpr std::uint8_t vtk_vertex = 1, vtk_poly_vertex = 2, vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10;
+constexpr std::uint8_t vtk_vertex = 1, vtk_poly_vertex = 2, vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10,
+                       vtk_quadratic_line = 21, vtk_quadratic_triangle = 22, vtk_quadratic_tetrahedron = 24;
 
 struct VtuCell {
   std::size_t number;
@@ -161,66 +162,75 @@ struct AppendedArray {
 
 /// The tetrahedra of a mesh, or its faces and edges in one list, with the points that a file has for them.
 struct CellList {
-  const mesh::TetMesh& mesh;
-  std::vector<std::uint32_t> vertex_of_point;  ///< empty: every vertex of the mesh is a point
-  std::vector<std::uint32_t> point_of_vertex;  ///< empty likewise
-  std::size_t tetrahedra, faces, edges;        ///< how many of each
+  const mesh::ElementNodes& nodes;
+  std::vector<std::uint32_t> node_of_point;  ///< empty: every node of the mesh is a point
+  std::vector<std::uint32_t> point_of_node;  ///< empty likewise
+  std::size_t tetrahedra, faces, edges;      ///< how many of each
+  std::size_t per_tetrahedron = nodes.per_element(4), per_face = nodes.per_element(3), per_edge = nodes.per_element(2);
 
   std::size_t size() const { return tetrahedra + faces + edges; }
-  std::size_t corner_count() const { return 4 * tetrahedra + 3 * faces + 2 * edges; }
-  std::size_t point_count() const { return point_of_vertex.empty() ? mesh.vertices.size() : vertex_of_point.size(); }
+  std::size_t corner_count() const { return per_tetrahedron * tetrahedra + per_face * faces + per_edge * edges; }
+  std::size_t point_count() const { return point_of_node.empty() ? nodes.count() : node_of_point.size(); }
 
-  std::uint32_t vertex(std::size_t point) const {
-    return point_of_vertex.empty() ? static_cast<std::uint32_t>(point) : vertex_of_point[point];
+  std::uint32_t node(std::size_t point) const {
+    return point_of_node.empty() ? static_cast<std::uint32_t>(point) : node_of_point[point];
   }
 
   std::uint32_t corner(std::size_t i) const {
-    if (tetrahedra > 0) return mesh.tetrahedra[i / 4][i % 4];
-    if (i < 3 * faces) return point_of_vertex[mesh.faces[i / 3][i % 3]];
-    i -= 3 * faces;
-    return point_of_vertex[mesh.edges[i / 2][i % 2]];
+    const mesh::TetMesh& mesh = nodes.mesh();
+    if (tetrahedra > 0) return nodes.node(mesh.tetrahedra[i / per_tetrahedron], i % per_tetrahedron);
+    if (i < per_face * faces) return point_of_node[nodes.node(mesh.faces[i / per_face], i % per_face)];
+    i -= per_face * faces;
+    return point_of_node[nodes.node(mesh.edges[i / per_edge], i % per_edge)];
   }
 
   /// Where the corners of a cell end.
   std::size_t corners_end(std::size_t cell) const {
     const std::size_t end = cell + 1;
-    if (tetrahedra > 0) return 4 * end;
-    return end <= faces ? 3 * end : faces + 2 * end;
+    if (tetrahedra > 0) return per_tetrahedron * end;
+    return end <= faces ? per_face * end : per_face * faces + per_edge * (end - faces);
   }
 
-  std::uint8_t type(std::size_t cell) const { return tetrahedra > 0 ? vtk_tetrahedron : cell < faces ? vtk_triangle : vtk_line; }
+  std::uint8_t type(std::size_t cell) const {
+    if (nodes.are_second_order())
+      return tetrahedra > 0 ? vtk_quadratic_tetrahedron : cell < faces ? vtk_quadratic_triangle : vtk_quadratic_line;
+    return tetrahedra > 0 ? vtk_tetrahedron : cell < faces ? vtk_triangle : vtk_line;
+  }
 
   /// The region of a tetrahedron, or the marker of a face or an edge.
   std::int32_t attribute(std::size_t cell) const {
+    const mesh::TetMesh& mesh = nodes.mesh();
     if (tetrahedra > 0) return attribute_of(mesh.regions, cell);
     return cell < faces ? attribute_of(mesh.face_markers, cell) : attribute_of(mesh.edge_markers, cell - faces);
   }
 };
 
-CellList tetrahedra_of(const mesh::TetMesh& mesh) {
-  return {mesh, {}, {}, mesh.tetrahedra.size(), 0, 0};
+CellList tetrahedra_of(const mesh::ElementNodes& nodes) {
+  return {nodes, {}, {}, nodes.mesh().tetrahedra.size(), 0, 0};
 }
 
-CellList boundary_of(const mesh::TetMesh& mesh) {
-  // One more than there are vertices: an empty list means something else.
+CellList boundary_of(const mesh::ElementNodes& nodes) {
+  const mesh::TetMesh& mesh = nodes.mesh();
+  // One more than there are nodes: an empty list means something else.
   CellList cells{
-      mesh, {}, std::vector<std::uint32_t>(mesh.vertices.size() + 1, none), 0, mesh.faces.size(), mesh.edges.size()};
+      nodes, {}, std::vector<std::uint32_t>(nodes.count() + 1, none), 0, mesh.faces.size(), mesh.edges.size()};
   const auto note = [&](const auto& elements) {
     for (const auto& corners : elements)
-      for (const std::uint32_t v : corners) cells.point_of_vertex[v] = 0;
+      for (std::size_t k = 0; k < nodes.per_element(corners.size()); ++k)
+        cells.point_of_node[nodes.node(corners, k)] = 0;
   };
   note(mesh.faces);
   note(mesh.edges);
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (cells.point_of_vertex[v] == none) continue;
-    cells.point_of_vertex[v] = static_cast<std::uint32_t>(cells.vertex_of_point.size());
-    cells.vertex_of_point.push_back(v);
+  for (std::uint32_t v = 0; v < nodes.count(); ++v) {
+    if (cells.point_of_node[v] == none) continue;
+    cells.point_of_node[v] = static_cast<std::uint32_t>(cells.node_of_point.size());
+    cells.node_of_point.push_back(v);
   }
   return cells;
 }
 
 AppendedArray points_of(const CellList& cells) {
-  const auto coordinate = [&](std::size_t i) { return as_array(cells.mesh.vertices[cells.vertex(i / 3)])[i % 3]; };
+  const auto coordinate = [&](std::size_t i) { return as_array(cells.nodes.point(cells.node(i / 3)))[i % 3]; };
   return {"Float64", "Points", compress_values(3 * cells.point_count(), coordinate), " NumberOfComponents=\"3\""};
 }
 
@@ -259,16 +269,16 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
                                               AppendedArray{"UInt8", "types", of_cells(&CellList::type)}};
   const std::array<AppendedArray, 1> of_each_cell = {AppendedArray{"Int32", attribute, of_cells(&CellList::attribute)}};
   std::vector<AppendedArray> of_each_point;
-  if (!list.point_of_vertex.empty())
-    of_each_point.push_back({"UInt32", vtu_point_vertex, compress_values(list.point_count(), [&](std::size_t point) {
-                               return list.vertex(point);
-                             })});
+  if (!list.point_of_node.empty())
+    of_each_point.push_back({"UInt32", vtu_point_vertex,
+                             compress_values(list.point_count(), [&](std::size_t point) { return list.node(point); })});
 
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <FieldData>\n"
          "      <DataArray type=\"Int32\" Name=\"constrained_delaunay\" NumberOfTuples=\"1\" format=\"ascii\">"
-      << (list.mesh.constrained_delaunay ? 1 : 0) << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\""
-      << list.point_count() << "\" NumberOfCells=\"" << list.size() << "\">\n";
+      << (list.nodes.mesh().constrained_delaunay ? 1 : 0)
+      << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\"" << list.point_count() << "\" NumberOfCells=\""
+      << list.size() << "\">\n";
   std::size_t offset = 0;
   declare("Points", "", points, offset, out);
   declare("Cells", "", cells, offset, out);
@@ -303,12 +313,12 @@ plc::InputPlc read_vtu_plc(const FileBytes& file) {
   return surface_of(read_vtu(file));
 }
 
-void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out) {
-  write_grid(tetrahedra_of(mesh), "region", out);
+void write_vtu_tetrahedra(const mesh::ElementNodes& nodes, OutputFile& out) {
+  write_grid(tetrahedra_of(nodes), "region", out);
 }
 
-void write_vtu_boundary(const mesh::TetMesh& mesh, OutputFile& out) {
-  write_grid(boundary_of(mesh), "marker", out);
+void write_vtu_boundary(const mesh::ElementNodes& nodes, OutputFile& out) {
+  write_grid(boundary_of(nodes), "marker", out);
 }
 
 }  // namespace ccdt::io

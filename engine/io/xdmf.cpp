@@ -15,23 +15,24 @@ void write_array(const char* type, std::size_t count, std::size_t columns, const
   out << "        </DataItem>\n";
 }
 
-/// All vertices, and elements of one kind with their attribute. FEniCS finds the mesh and its attribute by the name of
-/// the grid.
+/// All nodes, and elements of one kind with their attribute. FEniCS finds the mesh and its attribute by the name of the
+/// grid.
 template <std::size_t Corners>
-void write_xdmf(const std::vector<Point3>& vertices, const char* type,
-                const std::vector<std::array<std::uint32_t, Corners>>& elements, const char* attribute,
-                const std::vector<int>& attributes, OutputFile& out) {
+void write_xdmf(const mesh::ElementNodes& nodes, const std::vector<std::array<std::uint32_t, Corners>>& elements,
+                const std::string& type, const char* attribute, const std::vector<int>& attributes, OutputFile& out) {
+  const std::size_t per_element = nodes.per_element(Corners);
   out << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n  <Domain>\n"
          "    <Grid Name=\"mesh\" GridType=\"Uniform\">\n      <Topology TopologyType=\""
-      << type << "\" NumberOfElements=\"" << elements.size() << "\" NodesPerElement=\"" << Corners << "\">\n";
+      << type << (nodes.are_second_order() ? "_" + std::to_string(per_element) : "") << "\" NumberOfElements=\""
+      << elements.size() << "\" NodesPerElement=\"" << per_element << "\">\n";
   const auto element = [&](std::size_t i, auto& text) {
-    write_corners(elements[i], text, 0);
+    for (std::size_t k = 0; k < per_element; ++k) text << (k > 0 ? " " : "") << nodes.node(elements[i], k);
     text << '\n';
   };
-  write_array("Int", elements.size(), Corners, element, out);
+  write_array("Int", elements.size(), per_element, element, out);
   out << "      </Topology>\n      <Geometry GeometryType=\"XYZ\">\n";
-  const auto point = [&](std::size_t i, auto& text) { text << vertices[i] << '\n'; };
-  write_array("Float", vertices.size(), 3, point, out);
+  const auto point = [&](std::size_t i, auto& text) { text << nodes.point(i) << '\n'; };
+  write_array("Float", nodes.count(), 3, point, out);
   out << "      </Geometry>\n      <Attribute Name=\"" << attribute << "\" AttributeType=\"Scalar\" Center=\"Cell\">\n";
   const auto value = [&](std::size_t i, auto& text) { text << attribute_of(attributes, i) << '\n'; };
   write_array("Int", elements.size(), 1, value, out);
@@ -40,14 +41,14 @@ void write_xdmf(const std::vector<Point3>& vertices, const char* type,
 
 }  // namespace
 
-void write_xdmf_files(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
+void write_xdmf_files(const mesh::ElementNodes& nodes, const std::filesystem::path& file) {
   write_with_boundary(
-      mesh, file, ".boundary.xdmf",
-      [](const mesh::TetMesh& m, OutputFile& out) {
-        write_xdmf(m.vertices, "Tetrahedron", m.tetrahedra, "region", m.regions, out);
+      nodes, file, ".boundary.xdmf",
+      [](const mesh::ElementNodes& all, OutputFile& out) {
+        write_xdmf(all, all.mesh().tetrahedra, "Tetrahedron", "region", all.mesh().regions, out);
       },
-      [](const mesh::TetMesh& m, OutputFile& out) {
-        write_xdmf(m.vertices, "Triangle", m.faces, "marker", m.face_markers, out);
+      [](const mesh::ElementNodes& all, OutputFile& out) {
+        write_xdmf(all, all.mesh().faces, "Triangle", "marker", all.mesh().face_markers, out);
       });
 }
 

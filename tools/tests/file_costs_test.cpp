@@ -118,6 +118,17 @@ std::vector<CostlyFile> costly_files() {
       {"elements.vtu", [](std::size_t size) { return "<VTKFile>" + repeated("<a>", size / 3); }, 100,
        "verify far.off FILE"},
       {"zeros.vtu", [](std::size_t size) { return compressed_mesh(size / 16); }, 2500, "verify far.off FILE"},
+      {"corners.vtp",
+       [](std::size_t size) {
+         return R"(<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="3" NumberOfVerts="0" NumberOfLines="0"
+ NumberOfStrips="0" NumberOfPolys="1"><Points><DataArray type="Float64" format="ascii">)" +
+                std::string(three_vertices) + R"(</DataArray></Points><Polys>
+<DataArray type="Int64" Name="offsets" format="ascii">)" +
+                std::to_string(size / 2) +
+                R"(</DataArray><DataArray type="Int64" Name="connectivity" format="ascii">)" +
+                repeated("0 ", size / 2) + "</DataArray></Polys></Piece></PolyData></VTKFile>";
+       },
+       100},
       {"vertices.obj.gz", [](std::size_t size) { return compressed_vertices(size / 16); }, 10000},
       {"zeros.obj.gz", [](std::size_t size) { return gzipped(std::string(size * 10, ' ')); }, 10000},
       {"lists.json",

@@ -92,7 +92,8 @@ TEST(ForeignSurfaces, OfGmshKeepTheNamesOfPhysicalGroups) {
 }
 
 TEST(ForeignSurfaces, OfVtkAndMeshioHaveMarkers) {
-  const plc::InputPlc polygons = io::read_plc(foreign / "surface.vtp"), triangles = io::read_plc(foreign / "surface.vtu");
+  const plc::InputPlc polygons = io::read_plc(foreign / "surface.vtp"),
+                      triangles = io::read_plc(foreign / "surface.vtu");
   ASSERT_EQ(polygons.polygon_facets.size(), 1u);
   EXPECT_EQ(polygons.polygon_facets[0].marker, 9);
   EXPECT_EQ(polygons.triangle_markers, std::vector<int>(4, 4));
@@ -113,13 +114,28 @@ TEST(ForeignSurfaces, OfGzip) {
 TEST(ForeignSurfaces, OfTetrahedraAreTheirBoundary) {
   const plc::InputPlc vtk = io::read_plc(foreign / "vtk-raw-zlib.vtu");
   EXPECT_EQ(vtk.notes.size(), 1u);
-  EXPECT_EQ(vtk.triangles.size(), 7u) << "six on the boundary, and the listed one between the two";
-  EXPECT_EQ(std::ranges::count(vtk.triangle_markers, 5), 1);
+  EXPECT_EQ(vtk.triangles.size(), 6u);
+  EXPECT_NEAR(volume_of(vtk), (1 + 1.1 + 1.2 - 2.0 / 3) / 6, 1e-12);
+  EXPECT_EQ(std::ranges::count(vtk.triangle_markers, 5), 1) << "the listed ones have their markers";
+  EXPECT_EQ(std::ranges::count(vtk.triangle_markers, 6), 1);
   EXPECT_EQ(vtk.segments, mesh_of_two_tetrahedra().edges);
   const plc::InputPlc gmsh = io::read_plc(foreign / "gmsh-msh41-binary.msh");
   EXPECT_EQ(gmsh.notes.size(), 1u);
   EXPECT_EQ(gmsh.triangles.size(), 10u);
   EXPECT_EQ(std::ranges::count(gmsh.triangle_markers, 0), 0) << "all are listed, with their markers";
+}
+
+TEST(ForeignSurfaces, OfTetrahedraKeepListedFacesInsideAndNoInteriorVertices) {
+  mesh::TetMesh mesh = mesh_of_two_tetrahedra();
+  mesh.faces = {{1, 2, 3}}, mesh.face_markers = {6}, mesh.face_names = {{6, "wall"}, {7, "nowhere"}};
+  mesh.vertices.push_back({0.1, 0.1, 0.1});
+  const Folder folder;
+  io::write_tet_mesh(mesh, folder / "a.msh");
+  const plc::InputPlc plc = io::read_plc(folder / "a.msh");
+  EXPECT_EQ(plc.vertices.size(), 5u);
+  EXPECT_EQ(plc.triangles.size(), 7u);
+  EXPECT_EQ(std::ranges::count(plc.triangle_markers, 6), 1);
+  EXPECT_EQ(plc.marker_names, (std::map<int, std::string>{{6, "wall"}}));
 }
 
 }  // namespace

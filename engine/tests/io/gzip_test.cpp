@@ -1,7 +1,8 @@
+#include "engine/io/gzip.h"
+
 #include <zlib.h>
 
 #include "engine/io/file_sets.h"
-#include "engine/io/gzip.h"
 #include "engine/tests/io/io_test_files.h"
 
 namespace ccdt {

@@ -4,6 +4,7 @@
 
 #include "engine/io/output_folder.h"
 #include "engine/io/plain_names.h"
+#include "engine/mesh/element_nodes.h"
 #include "engine/tests/io/io_test_files.h"
 
 namespace ccdt {
@@ -26,7 +27,7 @@ mesh::TetMesh two_cells() {
   return mesh;
 }
 
-std::string written(const mesh::TetMesh& mesh, const std::string& name) {
+std::string text_of_mesh(const mesh::TetMesh& mesh, const std::string& name) {
   const Folder folder;
   io::write_tet_mesh(mesh, folder / name);
   return bytes_of(folder / name);
@@ -51,8 +52,8 @@ std::vector<std::vector<std::string>> block_of(const std::string& text, const st
 
 TEST(PlainNames, AreNewAndHaveFewCharacters) {
   io::PlainNames names;
-  const std::map<int, std::string> given = {
-      {1, "side wall"}, {2, "Side_Wall"}, {3, "12 holes"}, {4, ""}, {5, "\xc3\xa9t\xc3\xa9"}, {6, std::string(500, 'x')}};
+  const std::map<int, std::string> given = {{1, "side wall"}, {2, "Side_Wall"},         {3, "12 holes"},
+                                            {4, ""},          {5, "\xc3\xa9t\xc3\xa9"}, {6, std::string(500, 'x')}};
   EXPECT_EQ(names.name_of(1, "MARKER_", given), "side_wall");
   EXPECT_EQ(names.name_of(2, "MARKER_", given), "Side_Wall_1");
   EXPECT_EQ(names.name_of(3, "MARKER_", given), "MARKER_12_holes");
@@ -64,7 +65,7 @@ TEST(PlainNames, AreNewAndHaveFewCharacters) {
 }
 
 TEST(AbaqusFiles, HaveSetsForRegionsMarkersAndSegments) {
-  const std::string text = written(two_cells(), "a.inp");
+  const std::string text = text_of_mesh(two_cells(), "a.inp");
   using Block = std::vector<std::vector<std::string>>;
   EXPECT_EQ(block_of(text, "*ELEMENT, TYPE=C3D4, ELSET=REGION_2"), (Block{{"1", "1", "2", "4", "5"}}));
   EXPECT_EQ(block_of(text, "*ELEMENT, TYPE=C3D4, ELSET=REGION__1"), (Block{{"2", "2", "4", "5", "6"}}));
@@ -92,19 +93,22 @@ TEST(AbaqusFiles, HaveSurfacesOfTheFacesOfElements) {
   mesh.faces.erase(mesh.faces.begin());  // the common face, as the second tetrahedron sees it, remains
   mesh.face_markers = {0, 1, 2, 3, 4, 5, 6};
   mesh.face_names.clear();
-  const std::string text = written(mesh, "a.inp");
+  const std::string text = text_of_mesh(mesh, "a.inp");
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const auto block = block_of(text, "*SURFACE, NAME=MARKER_" + std::to_string(i) + ", TYPE=ELEMENT");
     ASSERT_EQ(block.size(), 1u);
     EXPECT_EQ(corners_of(mesh, block[0]), Corners(mesh.faces[i].begin(), mesh.faces[i].end())) << i;
     EXPECT_EQ(block[0][0], i < 3 ? "1" : "2") << "the element that the face faces away from";
   }
+  mesh.faces = {{1, 3, 4}}, mesh.face_markers = {0};  // the common face, as the first one sees it
+  const auto block = block_of(text_of_mesh(mesh, "a.inp"), "*SURFACE, NAME=MARKER_0, TYPE=ELEMENT");
+  EXPECT_EQ(block, (std::vector<std::vector<std::string>>{{"1", "S3"}}));
 }
 
 TEST(AbaqusFiles, GiveACoordinateTwentyCharacters) {
   mesh::TetMesh mesh = two_cells();
   mesh.vertices = {{-1.2345678901234567e-105, 1.0 / 3, -2.0 / 3}, {0.1, -1e-7 / 3, 1e300 / 7}, {}, {}, {}, {}};
-  const auto nodes = block_of(written(mesh, "a.inp"), "*NODE, NSET=NALL");
+  const auto nodes = block_of(text_of_mesh(mesh, "a.inp"), "*NODE, NSET=NALL");
   ASSERT_EQ(nodes.size(), 6u);
   for (std::size_t i = 0; i < 2; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -192,6 +196,43 @@ TEST(XdmfFiles, AppearTogether) {
   std::filesystem::create_directory(folder / "a.boundary.xdmf");
   EXPECT_THROW(io::write_tet_mesh(two_cells(), folder / "a.xdmf"), OutputError);
   EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(SecondOrder, NodesInTheMiddleOfEdgesAreShared) {
+  mesh::TetMesh mesh = two_cells();
+  const mesh::ElementNodes nodes(mesh, 2);
+  EXPECT_EQ(nodes.count(), mesh.vertices.size() + 9) << "two tetrahedra with a common face have nine edges";
+  const auto middle = [&](std::uint32_t a, std::uint32_t b) { return 0.5 * (mesh.vertices[a] + mesh.vertices[b]); };
+  for (const auto& t : mesh.tetrahedra) {
+    const std::array<Point3, 10> wanted = {
+        mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]], middle(t[0], t[1]),
+        middle(t[1], t[2]),  middle(t[0], t[2]),  middle(t[0], t[3]),  middle(t[1], t[3]),  middle(t[2], t[3])};
+    for (std::size_t k = 0; k < nodes.per_element(4); ++k) EXPECT_EQ(nodes.point(nodes.node(t, k)), wanted[k]) << k;
+  }
+  EXPECT_EQ(nodes.per_element(3), 6u);
+  EXPECT_EQ(nodes.node(mesh.faces[0], 4), nodes.node(mesh.tetrahedra[0], 9)) << "vertices 3 and 4";
+  EXPECT_EQ(nodes.node(mesh.edges[0], 2), nodes.node(mesh.tetrahedra[0], 4)) << "vertices 0 and 1";
+}
+
+TEST(SecondOrder, GmshPutsTheLastTwoEdgesOfATetrahedronInAnotherOrder) {
+  mesh::TetMesh mesh = two_cells();
+  mesh.tetrahedra.resize(1), mesh.regions.resize(1);
+  const mesh::ElementNodes nodes(mesh, 2);
+  const Folder folder;
+  io::write_tet_mesh(mesh, folder / "a.msh", "msh", 2);
+  std::string element = "6 11 2 2 1";  // after an edge and four faces
+  for (const std::size_t k : {0, 1, 2, 3, 4, 5, 6, 7, 9, 8})
+    element += " " + std::to_string(nodes.node(mesh.tetrahedra[0], k) + 1);
+  EXPECT_NE(bytes_of(folder / "a.msh").find("\n" + element + "\n"), std::string::npos) << element;
+}
+
+TEST(SecondOrder, IsRefusedWhereTheFormatDoesNotHoldIt) {
+  const Folder folder;
+  for (const char* name : {"a.mesh", "a.meshb", "a.node", "a.polymesh"}) {
+    EXPECT_THROW(io::check_tet_mesh_output(folder / name, "", 2), OutputError);
+    EXPECT_THROW(io::write_tet_mesh(two_cells(), folder / name, "", 2), OutputError);
+  }
+  EXPECT_EQ(folder.files(), 0u);
 }
 
 TEST(SimulationFiles, AreNotRead) {
