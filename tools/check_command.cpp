@@ -100,8 +100,7 @@ ExitCode run(const CheckCommand& command) {
 void add_check_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* verb = app.add_subcommand("check", "list everything that is wrong with an input, and repair it");
-  verb->add_option("INPUT", command->input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")
-      ->required();
+  verb->add_option("INPUT", command->input, std::string("surface or PLC: ") + read_plc_endings)->required();
   CLI::Option* repair = verb->add_flag("--repair", command->repair, "write a repaired copy of the input");
   CLI::Option* output = verb->add_option("-o,--output", command->output,
                                          "the repaired copy: .stl .off .obj .ply .poly .smesh .mesh .meshb");

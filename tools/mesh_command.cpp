@@ -47,6 +47,7 @@ namespace {
 struct MeshCommand {
   std::string input, output, report;
   std::string format;          ///< of the output; empty: that of its extension
+  int order = 1;               ///< of the elements in the output
   std::string surface_output;  ///< file for the remeshed or repaired surface
   bool repair = false;         ///< before meshing
   std::string mesher = "ccdt";
@@ -84,10 +85,8 @@ void check_surface_output(const std::filesystem::path& file) {
 }
 
 void check_files(const MeshCommand& command) {
-  if (command.format.empty() && !io::is_tet_mesh_file(command.output))
-    throw OutputError("unknown file extension '" + std::filesystem::path(command.output).extension().string() + "'",
-                      io::place_in(command.output), "use one of .mesh .meshb .vtu .msh .msh4 .node .ele .face");
-  check_can_be_written(command.output);
+  io::check_tet_mesh_output(command.output, command.format, command.order);
+  check_folder_can_be_written(command.output);
   const MeshOptions& options = command.options;
   std::vector<std::string> others = {command.input, options.background.name, options.local.name};
   for (const std::string& other : others) check_are_different(other, command.output);
@@ -330,7 +329,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   const Stopwatch watch(record.write_seconds);
   if (!command.surface_output.empty()) io::write_plc(meshed.surface, command.surface_output);
   PartOfResult surface(command.surface_output);
-  io::write_tet_mesh(meshed.run.result.mesh, command.output, command.format);
+  io::write_tet_mesh(meshed.run.result.mesh, command.output, command.format, command.order);
   surface.keep();
 }
 
@@ -395,12 +394,17 @@ constexpr const char* mesh_footer =
     "  ccdt mesh part.stl -o part.mesh --lattice none --steiner keep\n";
 
 void add_files(CLI::App& verb, MeshCommand& command) {
-  verb.add_option("INPUT", command.input, "surface or PLC: .stl .off .obj .ply .poly .smesh .node .mesh .meshb")
+  verb.add_option("INPUT", command.input, std::string("surface or PLC: ") + read_plc_endings)->required();
+  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .inp .xdmf .polymesh .node")
       ->required();
-  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .node")->required();
   verb.add_option("--format", command.format,
-                  "format of the mesh, if not that of its extension: msh4 is Gmsh 4.1 (binary), msh Gmsh 2.2 (text)")
+                  "format of the mesh, if not that of its extension: msh4 is Gmsh 4.1 (binary), msh Gmsh 2.2 (text), "
+                  "polymesh a folder of OpenFOAM")
       ->check(CLI::IsMember(io::tet_mesh_formats()));
+  verb.add_option("--order", command.order,
+                  "2: elements with a node in the middle of each edge, in .msh .msh4 .vtu .inp .xdmf")
+      ->check(whole_number(1, 2))
+      ->capture_default_str();
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
   verb.add_option("--report", command.report,

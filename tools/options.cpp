@@ -155,10 +155,14 @@ std::string list_line(std::string name, const std::string& what) {
 }
 
 void check_can_be_written(const std::filesystem::path& file) {
+  io::check_is_no_folder(file);
+  check_folder_can_be_written(file);
+}
+
+void check_folder_can_be_written(const std::filesystem::path& file) {
   std::error_code ignored;
-  const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  if (std::filesystem::is_directory(file, ignored))
-    throw OutputError("this is a folder", io::place_in(file.string()), "give the name of a file in it");
+  const auto place = file.has_filename() ? file : file.parent_path();  // without the slash of a folder
+  const auto folder = place.has_parent_path() ? place.parent_path() : std::filesystem::path(".");
   if (!std::filesystem::is_directory(folder, ignored))
     throw OutputError("there is no folder " + folder.string(), io::place_in(file.string()), "create it first");
   if (access(folder.c_str(), W_OK | X_OK) != 0)

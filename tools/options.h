@@ -57,9 +57,17 @@ void add_threads(CLI::App& verb, unsigned& threads);
 /// A line of a list in --help: a padded name and its meaning.
 std::string list_line(std::string name, const std::string& what);
 
+/// What `io::read_plc` reads, for --help.
+inline constexpr const char* read_plc_endings =
+    ".stl .off .obj .ply .poly .smesh .node .mesh .meshb .msh .vtu .vtp, also with .gz";
+
 /// Checks, before hours of work, that the file can be written.
 /// \throw OutputError  its folder does not exist or is not writable, or the path is a folder
 void check_can_be_written(const std::filesystem::path& file);
+
+/// The same for a name that may also be that of a folder.
+/// \throw OutputError  the folder that it is in does not exist or is not writable
+void check_folder_can_be_written(const std::filesystem::path& file);
 
 /// \throw OutputError  writing `output` would overwrite `input`
 void check_are_different(const std::filesystem::path& input, const std::filesystem::path& output);

@@ -7,6 +7,7 @@
 #include "engine/io/files.h"
 #include "engine/version.h"
 #include "tools/commands.h"
+#include "tools/limit_errors.h"
 #include "tools/options.h"
 #include "tools/program_text.h"
 #include "tools/terminal.h"
@@ -89,13 +90,15 @@ void add_man_command(CLI::App& app, ExitCode& exit_code) {
       "Example: read the page of a verb\n"
       "  ccdt man -o man && man ./man/ccdt-mesh.1\n");
   verb->callback([command, &app, &exit_code] {
-    const ProgramText program = text_of(app);
-    if (command->schema)
-      print(schemas_of_options().dump() + "\n");
-    else if (command->markdown)
-      print(markdown_reference(program));
-    else
-      write_man_pages(program, command->folder);
+    with_stage_of_limits(command->folder, "write", [&] {
+      const ProgramText program = text_of(app);
+      if (command->schema)
+        print(schemas_of_options().dump() + "\n");
+      else if (command->markdown)
+        print(markdown_reference(program));
+      else
+        write_man_pages(program, command->folder);
+    });
     exit_code = done;
   });
 }

@@ -56,11 +56,17 @@ std::vector<std::filesystem::path> files_like(const std::string& pattern) {
   return files;
 }
 
-/// All inputs in a folder; its node lists belong to other files.
+/// Is a file of this name mostly no input by itself? Node lists belong to other files; those of Gmsh and VTK are mostly
+/// meshes.
+bool is_mostly_no_input(const std::filesystem::path& file) {
+  return file.extension() == ".node" || file.extension() == ".msh" || file.extension() == ".vtu";
+}
+
+/// All inputs in a folder.
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.is_regular_file() && io::is_plc_file(entry.path()) && entry.path().extension() != ".node")
+    if (entry.is_regular_file() && io::is_plc_file(entry.path()) && !is_mostly_no_input(entry.path()))
       files.push_back(entry.path());
   std::ranges::sort(files);
   return files;

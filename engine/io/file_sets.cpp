@@ -11,14 +11,18 @@ namespace {
 
 using Paths = std::vector<std::filesystem::path>;
 
+bool begins_with_zero(const FileBytes& text) {
+  return TextScanner(text).peek() == "0";
+}
+
 /// Does a TetGen file leave its vertices to the .node beside it? If so, its first number, the vertex count, is 0. Only
-/// the beginning of the file is read.
+/// the beginning of the file is read, unless it is compressed.
 bool has_no_vertices(const std::filesystem::path& file) {
+  if (is_gzip_name(file)) return begins_with_zero(read_inflated_file(file));
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     const FileBytes bytes{file.string(), line};
-    TextScanner in(bytes);
-    if (!in.at_end()) return in.peek() == "0";
+    if (!TextScanner(bytes).at_end()) return begins_with_zero(bytes);
   }
   return false;
 }
@@ -30,9 +34,10 @@ void add_if_there(const std::filesystem::path& file, Paths& files) {
 }  // namespace
 
 Paths files_of_plc(const std::filesystem::path& file) {
-  const std::string ending = lower_ending(file);
+  const std::string ending = lower_ending(without_gzip(file));
   Paths files = {file};
-  if ((ending == ".poly" || ending == ".smesh") && has_no_vertices(file)) files.push_back(sibling(file, ".node"));
+  if ((ending == ".poly" || ending == ".smesh") && is_there(file) && has_no_vertices(file))
+    files.push_back(sibling(file, ".node"));
   return files;
 }
 

@@ -14,16 +14,12 @@
 
 namespace ccdt::io {
 
-namespace {
-
 std::filesystem::path temporary_beside(const std::filesystem::path& target) {
   static std::atomic<unsigned> counter = 0;
   std::string name = ".";
   name += target.filename().string() + "." + std::to_string(::getpid()) + "." + std::to_string(counter++) + ".tmp";
   return target.parent_path() / name;
 }
-
-}  // namespace
 
 bool is_there(const std::filesystem::path& file) {
   std::error_code ignored;
@@ -108,11 +104,16 @@ void fail_at_byte(const FileBytes& file, std::size_t byte, const std::string& wh
                    remedy);
 }
 
+void check_is_no_folder(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw OutputError("this is a folder", place_in(file.string()), "give the name of a file in it");
+}
+
 OutputFile::OutputFile(std::filesystem::path target) : target_(std::move(target)) {
+  check_is_no_folder(target_);
   std::error_code ignored;
   const auto status = std::filesystem::status(target_, ignored);
-  if (std::filesystem::is_directory(status))
-    throw OutputError("this is a folder", place_in(target_.string()), "give the name of a file in it");
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     throw OutputError("is not a regular file and cannot be replaced", place_in(target_.string()),
                       "name an ordinary file");

@@ -25,6 +25,9 @@ struct FileBytes {
   std::string bytes;
 };
 
+/// A new hidden name in the same folder, for what will get the name of the target when it is complete.
+std::filesystem::path temporary_beside(const std::filesystem::path& target);
+
 bool is_there(const std::filesystem::path& file);
 
 /// Does the file exist in the folder or below it, after following links?
@@ -37,6 +40,9 @@ void check_links_stay_within(const std::filesystem::path& folder);
 
 /// \throw InputError  no such file, a folder, or not a regular file
 void check_is_file(const std::filesystem::path& file);
+
+/// \throw OutputError  a folder has the name of the file that will be written
+void check_is_no_folder(const std::filesystem::path& file);
 
 /// Reads a whole file.
 ///

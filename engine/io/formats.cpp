@@ -37,6 +37,9 @@ constexpr PlcFormat plc_formats[] = {
     {".node", ".node", read_node},
     {".mesh", "Medit .mesh", read_medit_plc, write_medit_plc, {.most_corners = 4, .segments = true}},
     {".meshb", "Medit .meshb", read_meditb_plc, write_meditb_plc, {.most_corners = 4, .segments = true}},
+    {".msh", "Gmsh .msh", read_gmsh_plc},
+    {".vtu", "VTK .vtu", read_vtu_plc},
+    {".vtp", "VTK .vtp", read_vtp},
 };
 
 bool has_loose_vertex(const plc::InputPlc& plc) {
@@ -92,28 +95,40 @@ void check_mesh(const mesh::TetMesh& mesh, const std::string& file) {
     throw OutputError("a coordinate is not finite", place_in(file), "check the mesh");
 }
 
-/// A format with one file, or with several (`read_files` and `write_files`).
+/// A format with one file, or with several (`..._files`). It holds elements of second order, too, if its writer takes
+/// their nodes.
 struct TetMeshFormat {
   std::string_view ending;
   mesh::TetMesh (*read)(const FileBytes&) = nullptr;
   void (*write)(const mesh::TetMesh&, OutputFile&) = nullptr;
+  void (*write_nodes)(const mesh::ElementNodes&, OutputFile&) = nullptr;
+  void (*check)(const std::filesystem::path&) = check_is_no_folder;  ///< can it have this name?
   mesh::TetMesh (*read_files)(const std::filesystem::path&) = nullptr;
   void (*write_files)(const mesh::TetMesh&, const std::filesystem::path&) = nullptr;
+  void (*write_node_files)(const mesh::ElementNodes&, const std::filesystem::path&) = nullptr;
+
+  bool has_second_order() const { return write_nodes || write_node_files; }
 };
 
 constexpr TetMeshFormat mesh_formats[] = {
     {".mesh", read_medit_mesh, write_medit_mesh},
     {".meshb", read_meditb_mesh, write_meditb_mesh},
-    {.ending = ".vtu", .read_files = read_vtu_files, .write_files = write_vtu_files},
-    {".msh", read_gmsh, write_gmsh},
-    {".msh4", read_gmsh, write_gmsh4},
+    {.ending = ".vtu", .read_files = read_vtu_files, .write_node_files = write_vtu_files},
+    {.ending = ".msh", .read = read_gmsh, .write_nodes = write_gmsh},
+    {.ending = ".msh4", .read = read_gmsh, .write_nodes = write_gmsh4},
+    {.ending = ".inp", .write_nodes = write_abaqus},
+    {.ending = ".xdmf", .write_node_files = write_xdmf_files},
+    {.ending = ".polymesh", .check = check_replaces_poly_mesh, .write_files = write_poly_mesh},
     {.ending = ".node", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
     {.ending = ".ele", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
     {.ending = ".face", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
 };
 
-constexpr const char* mesh_endings =
+constexpr const char* read_mesh_endings =
     ".mesh and .meshb (Medit), .vtu (VTK), .msh and .msh4 (Gmsh), .node, .ele and .face (TetGen)";
+constexpr const char* written_mesh_endings =
+    ".mesh and .meshb (Medit), .vtu (VTK), .msh and .msh4 (Gmsh), .inp (Abaqus, CalculiX), .xdmf (FEniCS), .polymesh "
+    "(OpenFOAM), .node, .ele and .face (TetGen)";
 
 /// The format with this ending; null if there is none.
 template <class Format, std::size_t Count>
@@ -134,6 +149,7 @@ std::string_view ending_shown_by(const FileBytes& file) {
   if (first == "ply") return ".ply";
   if (first == "OFF") return ".off";
   if (first == "MeshVersionFormatted") return ".mesh";
+  if (first == "$MeshFormat") return ".msh";
   if (!equal_ignoring_case(first, "solid")) return {};
   in.skip_line();
   return equal_ignoring_case(in.peek(), "facet") ? ".stl" : std::string_view();
@@ -149,6 +165,17 @@ std::string_view ending_shown_by(const FileBytes& file) {
                                 const std::string& known_endings) {
   throw OutputError("unknown file extension '" + ending + "'", place_in(file.string()),
                     "choose one of " + known_endings);
+}
+
+/// \throw OutputError  there is none, or it does not hold elements of this order
+const TetMeshFormat& written_mesh_format(const std::filesystem::path& file, const std::string& format, int order) {
+  const std::string ending = format.empty() ? lower_ending(file) : "." + format;
+  const TetMeshFormat* const found = format_called(ending, mesh_formats);
+  if (!found) fail_to_write(ending, file, written_mesh_endings);
+  if (order == 2 && !found->has_second_order())
+    throw OutputError("this format does not hold elements of second order", place_in(file.string()),
+                      "choose .msh, .msh4, .vtu, .inp or .xdmf");
+  return *found;
 }
 
 }  // namespace
@@ -190,14 +217,22 @@ std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc) {
   return loops;
 }
 
+ElementGroups group_elements(std::size_t count, const std::vector<int>& attributes) {
+  ElementGroups groups;
+  for (std::size_t i = 0; i < count; ++i) groups[attribute_of(attributes, i)].push_back(static_cast<std::uint32_t>(i));
+  return groups;
+}
+
 bool is_plc_file(const std::filesystem::path& file) {
-  return format_of(file, plc_formats) != nullptr;
+  return format_of(without_gzip(file), plc_formats) != nullptr;
 }
 
 plc::InputPlc read_plc(const std::filesystem::path& file) {
-  const PlcFormat* format = format_of(file, plc_formats);
-  if (!format) fail_to_read(file, ".stl, .off, .obj, .ply, .poly, .smesh, .node, .mesh and .meshb");
-  const FileBytes bytes = read_whole_file(file);
+  const PlcFormat* format = format_of(without_gzip(file), plc_formats);
+  if (!format)
+    fail_to_read(
+        file, ".stl, .off, .obj, .ply, .poly, .smesh, .node, .mesh, .meshb, .msh, .vtu and .vtp, each also with .gz");
+  const FileBytes bytes = read_inflated_file(file);
   const std::string_view shown = ending_shown_by(bytes);
   const PlcFormat* const contents = shown.empty() ? format : std::ranges::find(plc_formats, shown, &PlcFormat::ending);
   plc::InputPlc plc = contents->read(bytes);
@@ -230,20 +265,25 @@ std::vector<std::string> tet_mesh_formats() {
   return names;
 }
 
-void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format) {
+void check_tet_mesh_output(const std::filesystem::path& file, const std::string& format, int order) {
+  written_mesh_format(file, format, order).check(file);
+}
+
+void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format,
+                    int order) {
   check_mesh(mesh, file.string());
-  const std::string ending = format.empty() ? lower_ending(file) : "." + format;
-  const TetMeshFormat* const found = format_called(ending, mesh_formats);
-  if (!found) fail_to_write(ending, file, mesh_endings);
-  if (found->write_files) return found->write_files(mesh, file);
+  const TetMeshFormat& found = written_mesh_format(file, format, order);
+  if (found.write_files) return found.write_files(mesh, file);
+  const mesh::ElementNodes nodes(mesh, order);
+  if (found.write_node_files) return found.write_node_files(nodes, file);
   OutputFile out(file);
-  found->write(mesh, out);
+  found.write ? found.write(mesh, out) : found.write_nodes(nodes, out);
   out.commit();
 }
 
 mesh::TetMesh read_tet_mesh(const std::filesystem::path& file) {
   const TetMeshFormat* format = format_of(file, mesh_formats);
-  if (!format) fail_to_read(file, mesh_endings);
+  if (!format || (!format->read && !format->read_files)) fail_to_read(file, read_mesh_endings);
   return format->read ? format->read(read_whole_file(file)) : format->read_files(file);
 }
 

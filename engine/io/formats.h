@@ -1,12 +1,15 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "engine/io/files.h"
+#include "engine/io/gzip.h"
 #include "engine/io/write_lines.h"
+#include "engine/mesh/element_nodes.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
 
@@ -27,6 +30,9 @@ plc::InputPlc read_smesh(const FileBytes& file);
 plc::InputPlc read_node(const FileBytes& file);
 plc::InputPlc read_medit_plc(const FileBytes& file);
 plc::InputPlc read_meditb_plc(const FileBytes& file);
+plc::InputPlc read_gmsh_plc(const FileBytes& file);
+plc::InputPlc read_vtu_plc(const FileBytes& file);
+plc::InputPlc read_vtp(const FileBytes& file);
 
 /// The writers rely on the checks of `write_plc`.
 void write_stl(const plc::InputPlc& plc, OutputFile& out);
@@ -54,17 +60,34 @@ mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file);
 void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out);
 void write_meditb_mesh(const mesh::TetMesh& mesh, OutputFile& out);
 /// Version 2.2 in text, which most programs read.
-void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out);
+void write_gmsh(const mesh::ElementNodes& nodes, OutputFile& out);
 /// Version 4.1 in binary.
-void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out);
+void write_gmsh4(const mesh::ElementNodes& nodes, OutputFile& out);
+/// An input file of Abaqus and CalculiX: tetrahedra in a set for each region; for each marker of faces a surface and a
+/// set of nodes, for each marker of edges a set of nodes.
+void write_abaqus(const mesh::ElementNodes& nodes, OutputFile& out);
+/// A folder polyMesh of OpenFOAM: a patch for each marker on the boundary, a zone of faces for each one inside, and
+/// zones of cells if there are several regions. Vertices that no tetrahedron has are left out.
+///
+/// \throw OutputError  something else is in its place (`check_replaces_poly_mesh`), or it cannot be written
+void write_poly_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& folder);
+/// \throw OutputError  it is neither absent, nor an empty folder, nor a polyMesh
+void check_replaces_poly_mesh(const std::filesystem::path& folder);
+/// XDMF with all numbers in the text: the tetrahedra with their `region`, and beside it .boundary.xdmf with the faces
+/// and their `marker`. Both have all vertices.
+void write_xdmf_files(const mesh::ElementNodes& nodes, const std::filesystem::path& file);
 /// The tetrahedra with their `region`.
-void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out);
+void write_vtu_tetrahedra(const mesh::ElementNodes& nodes, OutputFile& out);
 /// The faces and edges on facets and segments with their `marker`, and their points with their `vtu_point_vertex`.
-void write_vtu_boundary(const mesh::TetMesh& mesh, OutputFile& out);
+void write_vtu_boundary(const mesh::ElementNodes& nodes, OutputFile& out);
 /// Writes the tetrahedra, and beside them a file .boundary.vtu (even an empty one, so that none of an older mesh
 /// remains). In one file, a viewer would draw each face twice.
-void write_vtu_files(const mesh::TetMesh& mesh, const std::filesystem::path& file);
-/// The array with the vertex of the mesh for each point.
+void write_vtu_files(const mesh::ElementNodes& nodes, const std::filesystem::path& file);
+/// Writes a file, and another one beside it that has this ending. Both appear or none.
+void write_with_boundary(const mesh::ElementNodes& nodes, const std::filesystem::path& file, const char* ending,
+                         void (*write_tetrahedra)(const mesh::ElementNodes&, OutputFile&),
+                         void (*write_boundary)(const mesh::ElementNodes&, OutputFile&));
+/// The array with the node of the mesh for each point.
 inline constexpr const char* vtu_point_vertex = "vertex";
 /// Writes .node, .ele, .face and .edge (even empty ones, so that no file of an older mesh remains).
 void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file);
@@ -104,6 +127,12 @@ inline int attribute_of(const std::vector<int>& attributes, std::size_t i) {
   return i < attributes.size() ? attributes[i] : 0;
 }
 
+/// The elements with each attribute, in order.
+using ElementGroups = std::map<int, std::vector<std::uint32_t>>;
+
+/// \param attributes  as for `attribute_of`
+ElementGroups group_elements(std::size_t count, const std::vector<int>& attributes);
+
 /// Writes the corners of an element, each with a blank before it. `first` is the number of the first vertex.
 template <class Output>
 void write_corners(std::span<const std::uint32_t> corners, Output& out, std::uint32_t first = 1) {
@@ -116,9 +145,9 @@ inline void write_numbered(const std::vector<Point3>& points, OutputFile& out) {
       points.size(), [&](std::size_t i, auto& text) { text << i + 1 << ' ' << points[i] << '\n'; }, out);
 }
 
-/// The file with the same name and another ending.
-inline std::filesystem::path sibling(std::filesystem::path file, const char* ending) {
-  return file.replace_extension(ending);
+/// The file with the same name and another ending. Not .gz, but what is before it, is an ending.
+inline std::filesystem::path sibling(const std::filesystem::path& file, const char* ending) {
+  return without_gzip(file).replace_extension(ending);
 }
 
 }  // namespace ccdt::io

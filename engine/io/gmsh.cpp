@@ -6,6 +6,7 @@
 #include "engine/io/formats.h"
 #include "engine/io/gmsh_source.h"
 #include "engine/io/gmsh_types.h"
+#include "engine/io/mesh_surface.h"
 
 namespace ccdt::io {
 
@@ -47,6 +48,8 @@ class GmshReader {
         text.fail("section", "expected the start of a section ($...), found " + in_quotes(section));
       if (section == "$MeshFormat")
         read_format();
+      else if (section == "$PhysicalNames")
+        read_names();
       else if (section != "$Nodes" && section != "$Elements" && (section != "$Entities" || version_ != 4))
         skip_section(section);
       else if (version_ == 0)
@@ -117,6 +120,21 @@ class GmshReader {
         const std::size_t bounding = dimension == 0 ? 0 : in_.count(item, 2, 4);
         for (std::size_t k = 0; k < bounding; ++k) in_.integer(item);
       }
+    }
+  }
+
+  /// A count, then lines "dimension tag "name"", which are always text. Those of surfaces are kept.
+  void read_names() {
+    const Item item = "physical name";
+    TextScanner& text = in_.text();
+    const std::size_t count = text.count(item, 6);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::int64_t dimension = text.integer(item);
+      const int tag = text.attribute(item);
+      std::string_view name = text.rest_of_line();
+      if (name.size() < 2 || name.front() != '"' || name.back() != '"')
+        text.fail(item, "expected a name in quotes, found " + in_quotes(name));
+      if (dimension == 2) mesh_.face_names[tag] = name.substr(1, name.size() - 2);
     }
   }
 
@@ -282,6 +300,10 @@ class GmshReader {
 };
 
 }  // namespace
+
+plc::InputPlc read_gmsh_plc(const FileBytes& file) {
+  return surface_of(GmshReader(file).read());
+}
 
 mesh::TetMesh read_gmsh(const FileBytes& file) {
   mesh::TetMesh mesh = GmshReader(file).read();

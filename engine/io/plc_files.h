@@ -6,12 +6,13 @@
 
 namespace ccdt::io {
 
-/// Can `read_plc` read files with this extension?
+/// Can `read_plc` read files with this extension, or with this one and .gz?
 bool is_plc_file(const std::filesystem::path& file);
 
 /// Reads a surface or a piecewise linear complex. The extension determines the format: .stl (text and binary,
-/// distinguished by content), .off, .obj, .ply (text and binary), .poly, .smesh, .node (TetGen), .mesh (Medit, text)
-/// and .meshb (Medit, binary). But a file that begins with another format's keyword is read in that format.
+/// distinguished by content), .off, .obj, .ply (text and binary), .poly, .smesh, .node (TetGen), .mesh (Medit, text),
+/// .meshb (Medit, binary), .msh (Gmsh 2.x and 4.1), .vtu and .vtp (VTK). Each may be compressed by gzip (.stl.gz). But
+/// a file that begins with another format's keyword is read in that format. Of tetrahedra, the boundary is taken.
 ///
 /// \throw InputError  no such file, a folder, unknown extension, empty, truncated, malformed, NaN or infinite
 ///                    coordinates, index out of range, counts that contradict the size of the file; with file, line or

@@ -45,6 +45,8 @@ UnfinishedFile::~UnfinishedFile() {
 void remove_unfinished_files() {
   for (const Entry& entry : entries)
     if (entry.owner == getpid()) unlink(entry.name.data());
+  for (const Entry& entry : entries)
+    if (entry.owner == getpid()) rmdir(entry.name.data());  // a folder, which is empty now
 }
 
 }  // namespace ccdt::io

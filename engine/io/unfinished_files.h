@@ -4,8 +4,9 @@
 
 namespace ccdt::io {
 
-/// The name of a file that must not remain if this process is killed. While the object lives, `remove_unfinished_files`
-/// finds the name. (It misses names longer than 4,095 bytes, and all but 64 names at a time.)
+/// The name of a file that must not remain if this process is killed, or of a folder of such files. While the object
+/// lives, `remove_unfinished_files` finds the name. (It misses names longer than 4,095 bytes, and all but 64 names at a
+/// time.)
 class UnfinishedFile {
  public:
   explicit UnfinishedFile(const std::filesystem::path& file);

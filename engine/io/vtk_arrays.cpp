@@ -16,7 +16,7 @@ namespace ccdt::io {
 
 namespace {
 
-constexpr const char* outline_remedy = "export the file again as a VTK XML unstructured grid";
+constexpr const char* outline_remedy = "export the file again in the format of its extension: VTK XML";
 
 /// Where the tag of the appended data begins. What follows it is data, which may look like tags.
 constexpr std::string_view appended_tag = "<AppendedData", appended_end_tag = "</AppendedData";
@@ -73,12 +73,12 @@ bool is_appended(pugi::xml_node array) {
 
 }  // namespace
 
-VtkArrays::VtkArrays(const FileBytes& file) : file_(file) {
+VtkArrays::VtkArrays(const FileBytes& file, const char* type) : file_(file) {
   load_outline();
   header_ = document_.child("VTKFile");
-  check_header();
-  const pugi::xml_node grid = header_.child("UnstructuredGrid");
-  piece_ = grid.child("Piece");
+  if (xml_attribute(header_, "type") != type)
+    fail(0, "this is not a VTK XML file of the type " + std::string(type), outline_remedy);
+  piece_ = header_.child(type).child("Piece");
   if (!piece_) fail(0, "it has no Piece", outline_remedy);
   if (piece_.next_sibling("Piece"))
     fail(static_cast<std::size_t>(piece_.next_sibling("Piece").offset_debug()), "it has several pieces",
@@ -107,11 +107,6 @@ void VtkArrays::load_outline() {
                      line_of_byte(file_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
                      outline_remedy);
   appended_ = document_.child("VTKFile").child("AppendedData");
-}
-
-void VtkArrays::check_header() const {
-  if (xml_attribute(header_, "type") != "UnstructuredGrid")
-    fail(0, "this is not a VTK XML unstructured grid", outline_remedy);
 }
 
 VtkArrays::Array VtkArrays::find(const char* parent, std::string_view name) const {

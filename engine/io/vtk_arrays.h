@@ -28,16 +28,17 @@ struct StoredNumbers {
   }
 };
 
-/// The arrays of a VTK XML unstructured grid of one piece: as text, in base64 or appended, with or without zlib
+/// The arrays of a VTK XML file of one piece: as text, in base64 or appended, with or without zlib
 /// compression, of any type and byte order, with 32-bit or 64-bit lengths.
 class VtkArrays {
  public:
   using Array = pugi::xml_node;  ///< a DataArray
 
-  /// \throw InputError  the file has another format, is damaged, or has several pieces
-  explicit VtkArrays(const FileBytes& file);
+  /// \param type  UnstructuredGrid or PolyData
+  /// \throw InputError  the file has another type or format, is damaged, or has several pieces
+  explicit VtkArrays(const FileBytes& file, const char* type = "UnstructuredGrid");
 
-  /// \param parent  Points, Cells, CellData or FieldData
+  /// \param parent  Points, Cells, Polys, CellData and so on
   /// \param name    empty: any
   /// \return        an empty one if there is none
   Array find(const char* parent, std::string_view name) const;
@@ -60,7 +61,6 @@ class VtkArrays {
 
  private:
   void load_outline();
-  void check_header() const;
   std::string_view text_of(Array array) const;
   std::size_t appended_begin(Array array) const;
   std::string_view encoded_bytes(Array array) const;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <climits>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -9,36 +8,18 @@
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
 #include "engine/io/formats.h"
+#include "engine/io/mesh_surface.h"
 #include "engine/io/vtk_arrays.h"
 #include "engine/io/vtk_bytes.h"
+#include "engine/io/vtk_values.h"
 
 namespace ccdt::io {
 
 namespace {
 
 // VTK's types of cells
-constexpr std::uint8_t vertex = 1, poly_vertex = 2, line = 3, triangle = 5, tetrahedron = 10;
-
-/// The length of the ranges of points and cells that one thread reads at a time.
-constexpr std::size_t range_length = 16384;
-
-std::vector<Point3> read_points(const VtkArrays& arrays) {
-  const auto array = arrays.required("Points", "");
-  const StoredNumbers<double> xyz = arrays.read<double>(array);
-  arrays.check_size(array, xyz.size(), 3 * arrays.claimed("NumberOfPoints"));
-  std::vector<Point3> points(xyz.size() / 3);
-  const auto read_bad = [&](std::size_t i) {
-    std::array<double, 3> at;
-    xyz.read(3 * i, 3 * i + 3, at.data());
-    points[i] = {at[0], at[1], at[2]};
-    return !std::ranges::all_of(at, [](double x) { return std::isfinite(x); });
-  };
-  if (const auto bad = parallel_select(points.size(), range_length, read_bad); !bad.empty())
-    arrays.fail(arrays.begin_of(array),
-                "vertex " + std::to_string(bad[0]) + ": a coordinate is not a finite number (NaN or infinite)",
-                "repair this vertex, or export the file again");
-  return points;
-}
+constexpr std::uint8_t vtk_vertex = 1, vtk_poly_vertex = 2, vtk_line = 3, vtk_triangle = 5, vtk_tetrahedron = 10,
+                       vtk_quadratic_line = 21, vtk_quadratic_triangle = 22, vtk_quadratic_tetrahedron = 24;
 
 struct VtuCell {
   std::size_t number;
@@ -58,10 +39,10 @@ struct VtuCells {
 
   /// Of a cell of this type, as in `VtuCell`.
   std::size_t kind(std::size_t cell, std::int64_t type) const {
-    if (type == tetrahedron) return 0;
-    if (type == triangle) return 1;
-    if (type == line) return 2;
-    if (type != vertex && type != poly_vertex)
+    if (type == vtk_tetrahedron) return 0;
+    if (type == vtk_triangle) return 1;
+    if (type == vtk_line) return 2;
+    if (type != vtk_vertex && type != vtk_poly_vertex)
       refuse(cell, "cells of type " + std::to_string(type) + " are not supported",
              "write linear tetrahedra, triangles and lines only");
     return 3;
@@ -88,14 +69,6 @@ struct VtuCells {
     return its;
   }
 };
-
-/// Calls visit(begin, end) for short ranges that cover a range. Their numbers are converted before they are used.
-constexpr std::size_t few = 512;
-template <class Visit>
-void for_few(std::size_t begin, std::size_t end, const Visit& visit) {
-  for (; begin < end; begin += few) visit(begin, std::min(end, begin + few));
-}
-using Few = std::array<std::int64_t, few>;
 
 /// Calls visit(cell) for a range of cells.
 template <class Visit>
@@ -143,7 +116,7 @@ void enter_cells(const VtuCells& cells, std::size_t begin, std::size_t end, Kind
 void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
   const std::size_t size = cells.types.size();
   std::vector<KindCounts> starts = parallel_chunks(
-      size, range_length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
+      size, vtk_range_length, [&](std::size_t begin, std::size_t end) { return count_kinds(cells, begin, end); });
   KindCounts sum = {};
   for (KindCounts& start : starts)
     for (std::size_t kind = 0; kind < sum.size(); ++kind) sum[kind] += std::exchange(start[kind], sum[kind]);
@@ -151,29 +124,8 @@ void enter_all_cells(const VtuCells& cells, mesh::TetMesh& mesh) {
   mesh.faces.resize(sum[1]), mesh.face_markers.resize(sum[1]);
   mesh.edges.resize(sum[2]), mesh.edge_markers.resize(sum[2]);
   parallel_for(starts.size(), 1, [&](std::size_t i) {
-    enter_cells(cells, i * range_length, std::min(size, (i + 1) * range_length), starts[i], mesh);
+    enter_cells(cells, i * vtk_range_length, std::min(size, (i + 1) * vtk_range_length), starts[i], mesh);
   });
-}
-
-/// The attribute of cells with this name; none unless there is such an array with one whole number per cell.
-StoredNumbers<std::int64_t> read_attributes(const VtkArrays& arrays, const char* name, std::size_t count) {
-  const auto array = arrays.find("CellData", name);
-  if (!array) return {};
-  auto values = arrays.read<std::int64_t>(array);
-  arrays.check_size(array, values.size(), count);
-  const auto find_large = [&](std::size_t range_begin, std::size_t range_end, std::vector<std::size_t>& large) {
-    Few some;
-    for_few(range_begin, range_end, [&](std::size_t begin, std::size_t end) {
-      values.read(begin, end, some.data());
-      for (std::size_t i = begin; i < end; ++i)
-        if (!std::in_range<int>(some[i - begin])) large.push_back(i);
-    });
-  };
-  if (const auto large = parallel_collect<std::size_t>(count, range_length, find_large); !large.empty())
-    arrays.fail(arrays.begin_of(array),
-                "cell " + std::to_string(large[0]) + ": its " + name + " does not fit in 32 bits",
-                "use smaller numbers");
-  return values;
 }
 
 VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
@@ -182,8 +134,8 @@ VtuCells read_cells(const VtkArrays& arrays, std::size_t vertices) {
   VtuCells cells{arrays, vertices, read("connectivity"), read("offsets"), read("types"), {}, {}};
   arrays.check_size(arrays.required("Cells", "offsets"), cells.offsets.size(), count);
   arrays.check_size(arrays.required("Cells", "types"), cells.types.size(), count);
-  cells.regions = read_attributes(arrays, "region", count);
-  cells.markers = read_attributes(arrays, "marker", count);
+  cells.regions = read_vtk_attributes(arrays, "region", count);
+  cells.markers = read_vtk_attributes(arrays, "marker", count);
   return cells;
 }
 
@@ -210,66 +162,75 @@ struct AppendedArray {
 
 /// The tetrahedra of a mesh, or its faces and edges in one list, with the points that a file has for them.
 struct CellList {
-  const mesh::TetMesh& mesh;
-  std::vector<std::uint32_t> vertex_of_point;  ///< empty: every vertex of the mesh is a point
-  std::vector<std::uint32_t> point_of_vertex;  ///< empty likewise
-  std::size_t tetrahedra, faces, edges;        ///< how many of each
+  const mesh::ElementNodes& nodes;
+  std::vector<std::uint32_t> node_of_point;  ///< empty: every node of the mesh is a point
+  std::vector<std::uint32_t> point_of_node;  ///< empty likewise
+  std::size_t tetrahedra, faces, edges;      ///< how many of each
+  std::size_t per_tetrahedron = nodes.per_element(4), per_face = nodes.per_element(3), per_edge = nodes.per_element(2);
 
   std::size_t size() const { return tetrahedra + faces + edges; }
-  std::size_t corner_count() const { return 4 * tetrahedra + 3 * faces + 2 * edges; }
-  std::size_t point_count() const { return point_of_vertex.empty() ? mesh.vertices.size() : vertex_of_point.size(); }
+  std::size_t corner_count() const { return per_tetrahedron * tetrahedra + per_face * faces + per_edge * edges; }
+  std::size_t point_count() const { return point_of_node.empty() ? nodes.count() : node_of_point.size(); }
 
-  std::uint32_t vertex(std::size_t point) const {
-    return point_of_vertex.empty() ? static_cast<std::uint32_t>(point) : vertex_of_point[point];
+  std::uint32_t node(std::size_t point) const {
+    return point_of_node.empty() ? static_cast<std::uint32_t>(point) : node_of_point[point];
   }
 
   std::uint32_t corner(std::size_t i) const {
-    if (tetrahedra > 0) return mesh.tetrahedra[i / 4][i % 4];
-    if (i < 3 * faces) return point_of_vertex[mesh.faces[i / 3][i % 3]];
-    i -= 3 * faces;
-    return point_of_vertex[mesh.edges[i / 2][i % 2]];
+    const mesh::TetMesh& mesh = nodes.mesh();
+    if (tetrahedra > 0) return nodes.node(mesh.tetrahedra[i / per_tetrahedron], i % per_tetrahedron);
+    if (i < per_face * faces) return point_of_node[nodes.node(mesh.faces[i / per_face], i % per_face)];
+    i -= per_face * faces;
+    return point_of_node[nodes.node(mesh.edges[i / per_edge], i % per_edge)];
   }
 
   /// Where the corners of a cell end.
   std::size_t corners_end(std::size_t cell) const {
     const std::size_t end = cell + 1;
-    if (tetrahedra > 0) return 4 * end;
-    return end <= faces ? 3 * end : faces + 2 * end;
+    if (tetrahedra > 0) return per_tetrahedron * end;
+    return end <= faces ? per_face * end : per_face * faces + per_edge * (end - faces);
   }
 
-  std::uint8_t type(std::size_t cell) const { return tetrahedra > 0 ? tetrahedron : cell < faces ? triangle : line; }
+  std::uint8_t type(std::size_t cell) const {
+    if (nodes.are_second_order())
+      return tetrahedra > 0 ? vtk_quadratic_tetrahedron : cell < faces ? vtk_quadratic_triangle : vtk_quadratic_line;
+    return tetrahedra > 0 ? vtk_tetrahedron : cell < faces ? vtk_triangle : vtk_line;
+  }
 
   /// The region of a tetrahedron, or the marker of a face or an edge.
   std::int32_t attribute(std::size_t cell) const {
+    const mesh::TetMesh& mesh = nodes.mesh();
     if (tetrahedra > 0) return attribute_of(mesh.regions, cell);
     return cell < faces ? attribute_of(mesh.face_markers, cell) : attribute_of(mesh.edge_markers, cell - faces);
   }
 };
 
-CellList tetrahedra_of(const mesh::TetMesh& mesh) {
-  return {mesh, {}, {}, mesh.tetrahedra.size(), 0, 0};
+CellList tetrahedra_of(const mesh::ElementNodes& nodes) {
+  return {nodes, {}, {}, nodes.mesh().tetrahedra.size(), 0, 0};
 }
 
-CellList boundary_of(const mesh::TetMesh& mesh) {
-  // One more than there are vertices: an empty list means something else.
+CellList boundary_of(const mesh::ElementNodes& nodes) {
+  const mesh::TetMesh& mesh = nodes.mesh();
+  // One more than there are nodes: an empty list means something else.
   CellList cells{
-      mesh, {}, std::vector<std::uint32_t>(mesh.vertices.size() + 1, none), 0, mesh.faces.size(), mesh.edges.size()};
+      nodes, {}, std::vector<std::uint32_t>(nodes.count() + 1, none), 0, mesh.faces.size(), mesh.edges.size()};
   const auto note = [&](const auto& elements) {
     for (const auto& corners : elements)
-      for (const std::uint32_t v : corners) cells.point_of_vertex[v] = 0;
+      for (std::size_t k = 0; k < nodes.per_element(corners.size()); ++k)
+        cells.point_of_node[nodes.node(corners, k)] = 0;
   };
   note(mesh.faces);
   note(mesh.edges);
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v) {
-    if (cells.point_of_vertex[v] == none) continue;
-    cells.point_of_vertex[v] = static_cast<std::uint32_t>(cells.vertex_of_point.size());
-    cells.vertex_of_point.push_back(v);
+  for (std::uint32_t v = 0; v < nodes.count(); ++v) {
+    if (cells.point_of_node[v] == none) continue;
+    cells.point_of_node[v] = static_cast<std::uint32_t>(cells.node_of_point.size());
+    cells.node_of_point.push_back(v);
   }
   return cells;
 }
 
 AppendedArray points_of(const CellList& cells) {
-  const auto coordinate = [&](std::size_t i) { return as_array(cells.mesh.vertices[cells.vertex(i / 3)])[i % 3]; };
+  const auto coordinate = [&](std::size_t i) { return as_array(cells.nodes.point(cells.node(i / 3)))[i % 3]; };
   return {"Float64", "Points", compress_values(3 * cells.point_count(), coordinate), " NumberOfComponents=\"3\""};
 }
 
@@ -308,16 +269,16 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
                                               AppendedArray{"UInt8", "types", of_cells(&CellList::type)}};
   const std::array<AppendedArray, 1> of_each_cell = {AppendedArray{"Int32", attribute, of_cells(&CellList::attribute)}};
   std::vector<AppendedArray> of_each_point;
-  if (!list.point_of_vertex.empty())
-    of_each_point.push_back({"UInt32", vtu_point_vertex, compress_values(list.point_count(), [&](std::size_t point) {
-                               return list.vertex(point);
-                             })});
+  if (!list.point_of_node.empty())
+    of_each_point.push_back({"UInt32", vtu_point_vertex,
+                             compress_values(list.point_count(), [&](std::size_t point) { return list.node(point); })});
 
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <FieldData>\n"
          "      <DataArray type=\"Int32\" Name=\"constrained_delaunay\" NumberOfTuples=\"1\" format=\"ascii\">"
-      << (list.mesh.constrained_delaunay ? 1 : 0) << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\""
-      << list.point_count() << "\" NumberOfCells=\"" << list.size() << "\">\n";
+      << (list.nodes.mesh().constrained_delaunay ? 1 : 0)
+      << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\"" << list.point_count() << "\" NumberOfCells=\""
+      << list.size() << "\">\n";
   std::size_t offset = 0;
   declare("Points", "", points, offset, out);
   declare("Cells", "", cells, offset, out);
@@ -335,7 +296,7 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
 mesh::TetMesh read_vtu(const FileBytes& file) {
   const VtkArrays arrays(file);
   mesh::TetMesh mesh;
-  mesh.vertices = read_points(arrays);
+  mesh.vertices = read_vtk_points(arrays);
   const VtuCells cells = read_cells(arrays, mesh.vertices.size());
   try {
     enter_all_cells(cells, mesh);
@@ -348,12 +309,16 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
   return mesh;
 }
 
-void write_vtu_tetrahedra(const mesh::TetMesh& mesh, OutputFile& out) {
-  write_grid(tetrahedra_of(mesh), "region", out);
+plc::InputPlc read_vtu_plc(const FileBytes& file) {
+  return surface_of(read_vtu(file));
 }
 
-void write_vtu_boundary(const mesh::TetMesh& mesh, OutputFile& out) {
-  write_grid(boundary_of(mesh), "marker", out);
+void write_vtu_tetrahedra(const mesh::ElementNodes& nodes, OutputFile& out) {
+  write_grid(tetrahedra_of(nodes), "region", out);
+}
+
+void write_vtu_boundary(const mesh::ElementNodes& nodes, OutputFile& out) {
+  write_grid(boundary_of(nodes), "marker", out);
 }
 
 }  // namespace ccdt::io

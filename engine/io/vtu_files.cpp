@@ -45,12 +45,18 @@ mesh::TetMesh read_vtu_files(const std::filesystem::path& file) {
   return mesh;
 }
 
-void write_vtu_files(const mesh::TetMesh& mesh, const std::filesystem::path& file) {
-  OutputFile tetrahedra(file), boundary(sibling(file, boundary_ending));
-  write_vtu_tetrahedra(mesh, tetrahedra);
-  write_vtu_boundary(mesh, boundary);
+void write_with_boundary(const mesh::ElementNodes& nodes, const std::filesystem::path& file, const char* ending,
+                         void (*write_tetrahedra)(const mesh::ElementNodes&, OutputFile&),
+                         void (*write_boundary)(const mesh::ElementNodes&, OutputFile&)) {
+  OutputFile tetrahedra(file), boundary(sibling(file, ending));
+  write_tetrahedra(nodes, tetrahedra);
+  write_boundary(nodes, boundary);
   for (OutputFile* out : {&tetrahedra, &boundary}) out->close();
   for (OutputFile* out : {&boundary, &tetrahedra}) out->commit();  // that of tetrahedra never comes without the other
+}
+
+void write_vtu_files(const mesh::ElementNodes& nodes, const std::filesystem::path& file) {
+  write_with_boundary(nodes, file, boundary_ending, write_vtu_tetrahedra, write_vtu_boundary);
 }
 
 }  // namespace ccdt::io

@@ -16,7 +16,7 @@ std::array<Face, 4> faces_of(const TetMesh& mesh, std::array<std::uint32_t, 4> t
   const auto [a, b, c, d] =
       std::array{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]};
   if (dot(cross(b - a, c - a), d - a) < 0) std::swap(t[2], t[3]);
-  return {{{t[1], t[2], t[3]}, {t[0], t[3], t[2]}, {t[0], t[1], t[3]}, {t[0], t[2], t[1]}}};
+  return outward_faces(t);
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ struct OutOfTime {};
 /// Ends the repair at the first step that begins too late.
 Progress until(double seconds, const Progress& progress) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  return [end, progress](std::string_view stage, std::uint64_t done, std::uint64_t total) {
+  return [end, progress](std::string_view name, std::uint64_t done, std::uint64_t total) {
     if (std::chrono::steady_clock::now() > end && done < total) throw OutOfTime();
-    report(progress, stage, done, total);
+    report(progress, name, done, total);
   };
 }
 

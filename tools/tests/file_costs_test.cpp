@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,28 @@ std::string compressed_mesh(std::size_t size) {
          header + packed.substr(0, length) + "</AppendedData></VTKFile>";
 }
 
+/// As gzip compresses it.
+std::string gzipped(const std::string& text) {
+  z_stream state{};
+  deflateInit2(&state, Z_BEST_COMPRESSION, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
+  std::string packed(deflateBound(&state, text.size()), '\0');
+  state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+  state.avail_in = static_cast<uInt>(text.size());
+  state.next_out = reinterpret_cast<Bytef*>(packed.data());
+  state.avail_out = static_cast<uInt>(packed.size());
+  deflate(&state, Z_FINISH);
+  deflateEnd(&state);
+  return packed.substr(0, state.total_out);
+}
+
+/// Vertices that zlib makes nearly a hundred times shorter: behind them is as much that it cannot shorten.
+std::string compressed_vertices(std::size_t size) {
+  std::mt19937 random(1);
+  std::string noise = "#";
+  while (noise.size() < size) noise += static_cast<char>('0' + random() % 64);
+  return gzipped(repeated("v 0 0 0\n", 70 * size / 8) + "f 1 2 3\n" + noise);
+}
+
 std::vector<CostlyFile> costly_files() {
   const std::string triangle =
       "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
@@ -95,6 +118,19 @@ std::vector<CostlyFile> costly_files() {
       {"elements.vtu", [](std::size_t size) { return "<VTKFile>" + repeated("<a>", size / 3); }, 100,
        "verify far.off FILE"},
       {"zeros.vtu", [](std::size_t size) { return compressed_mesh(size / 16); }, 2500, "verify far.off FILE"},
+      {"corners.vtp",
+       [](std::size_t size) {
+         return R"(<VTKFile type="PolyData"><PolyData><Piece NumberOfPoints="3" NumberOfVerts="0" NumberOfLines="0"
+ NumberOfStrips="0" NumberOfPolys="1"><Points><DataArray type="Float64" format="ascii">)" +
+                std::string(three_vertices) + R"(</DataArray></Points><Polys>
+<DataArray type="Int64" Name="offsets" format="ascii">)" +
+                std::to_string(size / 2) +
+                R"(</DataArray><DataArray type="Int64" Name="connectivity" format="ascii">)" +
+                repeated("0 ", size / 2) + "</DataArray></Polys></Piece></PolyData></VTKFile>";
+       },
+       100},
+      {"vertices.obj.gz", [](std::size_t size) { return compressed_vertices(size / 16); }, 10000},
+      {"zeros.obj.gz", [](std::size_t size) { return gzipped(std::string(size * 10, ' ')); }, 10000},
       {"lists.json",
        [](std::size_t size) {
          return "[" + repeated(std::string(150, '[') + std::string(150, ']') + ",", size / 301) + "1]";

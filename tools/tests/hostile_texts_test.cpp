@@ -256,9 +256,10 @@ TEST_F(HostileTexts, OfSurfacesAreNotInMeshes) {
   write("plain.off", text_of(work() / "cube.off"));
   ASSERT_EQ(run("check plain.off --repair -o plain.obj").exit_code, 0);
   write("named.obj", "o </VTKFile>&\ng $Strange\nusemtl ]]>\n" + text_of(work() / "plain.obj"));
-  for (const char* ending : {".vtu", ".msh", ".mesh", ".node"}) {
+  for (const char* ending : {".vtu", ".msh", ".mesh", ".node", ".inp", ".xdmf", ".polymesh"}) {
     ASSERT_EQ(run("mesh named.obj -o named" + std::string(ending)).exit_code, 0);
-    const std::string text = text_of(work() / ("named" + std::string(ending)));
+    const std::filesystem::path file = work() / ("named" + std::string(ending));
+    const std::string text = text_of(std::filesystem::is_directory(file) ? file / "boundary" : file);
     for (const char* name : {"</VTKFile>&", "$Strange", "]]>"}) EXPECT_EQ(text.find(name), std::string::npos) << ending;
   }
 }

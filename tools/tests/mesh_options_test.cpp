@@ -23,12 +23,21 @@ std::set<std::string> options_in(const std::string& help) {
 
 TEST_F(Program, MeshHasTheOptionsWhoseEffectsAreKnown) {
   std::set<std::string> listed = options_in(run("mesh --help").out);
-  for (const char* no_effect : {"help", "output", "format", "surface-output", "report", "repair", "mesher"})
+  for (const char* no_effect : {"help", "output", "format", "order", "surface-output", "report", "repair", "mesher"})
     EXPECT_EQ(listed.erase(no_effect), 1u) << no_effect;
   EXPECT_EQ(listed.erase("strategies"), 1u) << "it stands for others";
   std::set<std::string> known;
   for (const auto& [name, usual] : baselines::usual_options()) known.insert(name);
   EXPECT_EQ(listed, known);
+}
+
+TEST_F(Program, MeshWritesElementsOfSecondOrderWhereTheFormatHoldsThem) {
+  EXPECT_EQ(run("mesh missing.off -o out.vtu --order 3").exit_code, 2);
+  ASSERT_EQ(run("model cube --edge-length 1 -o part.off").exit_code, 0);
+  EXPECT_EQ(run("mesh part.off -o out.mesh --order 2").exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(work() / "out.mesh"));
+  EXPECT_EQ(run("mesh part.off -o out.vtu --order 2").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(work() / "out.boundary.vtu"));
 }
 
 TEST_F(Program, MeshKnowsThePapersStrategiesByOneName) {

@@ -65,16 +65,18 @@ std::vector<BinaryFormat> binary_formats() {
   triangles.polygon_facets.clear();
   const std::size_t vtu_end = std::string(">\n</VTKFile>\n").size();
   // In .meshb, our claim follows the keyword End; a text needs no line end after the last word.
-  return {{"meshb", written(small_mesh(), io::write_meditb_mesh), as_mesh(io::read_meditb_mesh),
-           io::constrained_delaunay_claim.size()},
-          {"meshb surface", written(awkward_surface(), io::write_meditb_plc), as_plc(io::read_meditb_plc),
-           io::even_odd_claim.size()},
-          {"vtu", written(small_mesh(), io::write_vtu_tetrahedra), as_mesh(io::read_vtu), vtu_end},
-          {"boundary vtu", written(small_mesh(), io::write_vtu_boundary), as_mesh(io::read_vtu), vtu_end},
-          {"msh4", written(small_mesh(), io::write_gmsh4), as_mesh(io::read_gmsh), 1},
-          {"binary msh2", binary_gmsh2(), as_mesh(io::read_gmsh), 1},
-          {"ply", written(awkward_surface(), io::write_ply), as_plc(io::read_ply)},
-          {"stl", written(triangles, io::write_stl), as_plc(io::read_stl)}};
+  return {
+      {"meshb", written(small_mesh(), io::write_meditb_mesh), as_mesh(io::read_meditb_mesh),
+       io::constrained_delaunay_claim.size()},
+      {"meshb surface", written(awkward_surface(), io::write_meditb_plc), as_plc(io::read_meditb_plc),
+       io::even_odd_claim.size()},
+      {"vtu", written(mesh::ElementNodes(small_mesh(), 1), io::write_vtu_tetrahedra), as_mesh(io::read_vtu), vtu_end},
+      {"boundary vtu", written(mesh::ElementNodes(small_mesh(), 1), io::write_vtu_boundary), as_mesh(io::read_vtu),
+       vtu_end},
+      {"msh4", written(mesh::ElementNodes(small_mesh(), 1), io::write_gmsh4), as_mesh(io::read_gmsh), 1},
+      {"binary msh2", binary_gmsh2(), as_mesh(io::read_gmsh), 1},
+      {"ply", written(awkward_surface(), io::write_ply), as_plc(io::read_ply)},
+      {"stl", written(triangles, io::write_stl), as_plc(io::read_stl)}};
 }
 
 /// \return  is the file refused? Anything but one of our errors with its place and remedy is a failure.
@@ -198,7 +200,7 @@ TEST(WriteVtu, IsCompressed) {
   for (int k = 0; k < 15; ++k)
     mesh.tetrahedra.insert(mesh.tetrahedra.end(), mesh.tetrahedra.begin(), mesh.tetrahedra.end());
   mesh.regions.resize(mesh.tetrahedra.size(), 3);  // a megabyte of connectivity in several blocks
-  const std::string bytes = written(mesh, io::write_vtu_tetrahedra);
+  const std::string bytes = written(mesh::ElementNodes(mesh, 1), io::write_vtu_tetrahedra);
   EXPECT_LT(bytes.size(), 16 * mesh.tetrahedra.size() / 4);
   mesh.faces.clear(), mesh.face_markers.clear();
   mesh.edges.clear(), mesh.edge_markers.clear();
@@ -209,7 +211,7 @@ TEST(WriteGmsh4, MarkersMayAlternate) {
   mesh::TetMesh mesh = small_mesh();
   mesh.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}, {0, 1, 2, 4}, {4, 3, 2, 1}};
   mesh.regions = {2, 0, 2, -1};
-  expect_same_mesh(io::read_gmsh(in_memory(written(mesh, io::write_gmsh4))), mesh);
+  expect_same_mesh(io::read_gmsh(in_memory(written(mesh::ElementNodes(mesh, 1), io::write_gmsh4))), mesh);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <tuple>
 #include <vector>
 
@@ -41,6 +42,10 @@ const std::vector<Door> doors = {
     {Kind::mesh, {".node", ".ele", ".face", ".edge"}},
     {Kind::sizes, {".sol", ".mesh"}},
     {Kind::sizes, {".mtr", ".node", ".ele"}},
+    {Kind::plc, {".msh"}},
+    {Kind::plc, {".vtu"}},
+    {Kind::plc, {".vtp"}},
+    {Kind::plc, {".off.gz"}},
 };
 
 std::filesystem::path write_files(const Door& door, std::string_view contents) {
@@ -69,10 +74,15 @@ bool are_same(const InputPlc& a, const InputPlc& b, bool has_markers) {
          std::ranges::equal(a.polygon_facets, b.polygon_facets, {}, facet_of, facet_of);
 }
 
+bool is_written(std::string_view ending) {
+  const auto endings = std::to_array<std::string_view>({".node", ".msh", ".vtu", ".vtp", ".off.gz"});
+  return std::ranges::find(endings, ending) == endings.end();
+}
+
 /// STL has single precision, so what was read may change once.
 void try_plc(const std::filesystem::path& file, std::string ending) {
   InputPlc given = io::read_plc(file);
-  if (ending == ".node") ending = ".poly";
+  if (!is_written(ending)) ending = ".poly";
   const auto copy = temporary_folder().path() / ("copy" + ending);
   const auto read_again = [&] {
     io::write_plc(given, copy);
