@@ -245,6 +245,7 @@ std::string first_rows(const ResultTable& table, std::size_t most) {
 }
 
 std::string check_word(const verify::Check& check) {
+  if (!check.not_compared.empty()) return "skipped";
   if (check.failed == 0) return "ok";
   return check.required ? "FAILED" : "differs";
 }
@@ -257,8 +258,12 @@ std::string check_lines(const std::vector<verify::Check>& checks) {
   for (const verify::Check& check : checks) {
     const std::string word = check_word(check);
     text += word + std::string(9 - word.size(), ' ') + check.name + std::string(width + 2 - check.name.size(), ' ');
-    text += check.failed == 0 ? with_separators(check.checked)
-                              : with_separators(check.failed) + " of " + with_separators(check.checked);
+    if (!check.not_compared.empty())
+      text += "not compared: " + check.not_compared;
+    else if (check.failed == 0)
+      text += with_separators(check.checked);
+    else
+      text += with_separators(check.failed) + " of " + with_separators(check.checked);
     text += "\n";
     for (const std::string& example : check.examples) text += "           " + example + "\n";
   }
@@ -427,18 +432,19 @@ std::string in_one_line(const bench::RunRecord& r) {
 }
 
 std::string summarize(const verify::Verification& verification) {
-  std::vector<verify::Check> failed;
+  std::vector<verify::Check> shown;  // not those that passed
   std::size_t required = 0, passed = 0;
   for (const verify::Check& check : verification.checks) {
-    if (!check.required) continue;
+    if (!check.not_compared.empty()) shown.push_back(check);
+    if (!check.required || !check.not_compared.empty()) continue;
     ++required;
     if (check.failed == 0)
       ++passed;
     else
-      failed.push_back(check);
+      shown.push_back(check);
   }
   return "checks   " + std::to_string(passed) + " of " + std::to_string(required) + " passed (--details lists them)\n" +
-         volumes(verification) + check_lines(failed);
+         volumes(verification) + check_lines(shown);
 }
 
 std::string to_terminal(const verify::Verification& verification) {
@@ -447,12 +453,14 @@ std::string to_terminal(const verify::Verification& verification) {
 
 std::string to_json(const verify::Verification& verification, const std::string& input, const std::string& mesh) {
   bench::Json checks = bench::Json::array();
-  for (const verify::Check& check : verification.checks)
+  for (const verify::Check& check : verification.checks) {
     checks.push_back({{"name", check.name},
                       {"checked", check.checked},
                       {"failed", check.failed},
                       {"required", check.required},
                       {"examples", check.examples}});
+    if (!check.not_compared.empty()) checks.back()["not_compared"] = check.not_compared;
+  }
   return bench::to_text({{"schema", "ccdt.verify/1"},
                          {"input", input},
                          {"mesh", mesh},

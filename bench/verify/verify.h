@@ -65,6 +65,7 @@ struct Check {
   std::uint64_t failed = 0;                ///< number of wrong ones
   bool required = true;                    ///< does a failure make the mesh wrong?
   std::vector<std::string> examples = {};  ///< the first few failures, with coordinates
+  std::string not_compared = {};           ///< why there was nothing to check, although the input asks for it
 };
 
 struct Verification {

@@ -75,6 +75,10 @@ void write_blocks(const Entities& entities, const std::vector<std::array<std::ui
   }
 }
 
+void write_claims(const mesh::TetMesh& mesh, OutputFile& out) {
+  if (const std::string claims = claims_of(mesh); !claims.empty()) out << "$Comments\n" << claims << "\n$EndComments\n";
+}
+
 /// Names of faces, without what would end them.
 void write_names(const std::map<int, std::string>& names, OutputFile& out) {
   if (names.empty()) return;
@@ -102,7 +106,7 @@ void write_node_block(const std::vector<Point3>& vertices, OutputFile& out) {
 
 void write_gmsh(const mesh::TetMesh& mesh, OutputFile& out) {
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-  if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+  write_claims(mesh, out);
   write_names(mesh.face_names, out);
   out << "$Nodes\n" << mesh.vertices.size() << '\n';
   write_numbered(mesh.vertices, out);
@@ -120,7 +124,7 @@ void write_gmsh4(const mesh::TetMesh& mesh, OutputFile& out) {
                  volumes = entities_of(mesh.tetrahedra.size(), mesh.regions, true);
   out << "$MeshFormat\n4.1 1 8\n";
   put_integer(1, out) << "\n$EndMeshFormat\n";
-  if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+  write_claims(mesh, out);
 
   write_names(mesh.face_names, out);
   const Box box = mesh.vertices.empty() ? Box() : bounding_box(mesh.vertices);

@@ -66,7 +66,7 @@ std::vector<BinaryFormat> binary_formats() {
   const std::size_t vtu_end = std::string(">\n</VTKFile>\n").size();
   // In .meshb, our claim follows the keyword End; a text needs no line end after the last word.
   return {{"meshb", written(small_mesh(), io::write_meditb_mesh), as_mesh(io::read_meditb_mesh),
-           io::constrained_delaunay_claim.size()},
+           io::claims_of(small_mesh()).size()},
           {"meshb surface", written(awkward_surface(), io::write_meditb_plc), as_plc(io::read_meditb_plc),
            io::even_odd_claim.size()},
           {"vtu", written(small_mesh(), io::write_vtu_tetrahedra), as_mesh(io::read_vtu), vtu_end},
