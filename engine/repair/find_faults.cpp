@@ -15,6 +15,7 @@
 #include "engine/plc/build_plc.h"
 #include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
+#include "engine/plc/gather_parts.h"
 #include "engine/plc/input_faults.h"
 #include "engine/repair/gather_soup.h"
 #include "engine/repair/open_edges.h"
