@@ -223,6 +223,12 @@ std::string quality_lines(const bench::Quality& q) {
          "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
 }
 
+std::string surface_line(const surface::SurfaceChange& change) {
+  const auto& [x, y, z] = change.farthest;
+  return "surface     at most " + rounded(change.distance) + " from that of the input (near " + rounded(x, 6) + ", " +
+         rounded(y, 6) + ", " + rounded(z, 6) + "); area changed by " + rounded(change.area_change) + "\n";
+}
+
 /// Nothing if the mesh was not improved.
 std::string improvement(const ImproveCounts& c) {
   if (c.stop == ImproveStop::none) return "";
@@ -421,6 +427,9 @@ std::string summarize(const bench::RunRecord& r) {
           "\n";
   text += quality_lines(r.quality);
   text += improvement(c.improve);
+  if (r.surface_change) text += surface_line(*r.surface_change);
+  for (const bench::MissedRequirement& missed : r.missed)
+    text += "missed      " + words_of(missed, c.tetrahedra) + "\n";
   for (const std::string& note : r.notes) text += "note        " + note + "\n";
   return text;
 }
