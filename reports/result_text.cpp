@@ -278,8 +278,12 @@ std::string check_lines(const std::vector<verify::Check>& checks) {
 
 std::string volumes(const verify::Verification& verification) {
   constexpr int digits = 6;
-  return "volume   " + rounded(verification.mesh_volume, digits) +
-         " (input: " + rounded(verification.input_volume, digits) + ")\n";
+  std::string text = "volume   " + rounded(verification.mesh_volume, digits) +
+                     " (input: " + rounded(verification.input_volume, digits) + ")\n";
+  if (const auto& distances = verification.distances)
+    text += "distance " + rounded(distances->to_input) + " from the input, " + rounded(distances->from_input) +
+            " of the input from the mesh (limit: " + rounded(distances->limit) + ")\n";
+  return text;
 }
 
 }  // namespace
@@ -470,13 +474,17 @@ std::string to_json(const verify::Verification& verification, const std::string&
                       {"examples", check.examples}});
     if (!check.not_compared.empty()) checks.back()["not_compared"] = check.not_compared;
   }
-  return bench::to_text({{"schema", "ccdt.verify/1"},
-                         {"input", input},
-                         {"mesh", mesh},
-                         {"ok", verification.ok()},
-                         {"mesh_volume", verification.mesh_volume},
-                         {"input_volume", verification.input_volume},
-                         {"checks", checks}});
+  bench::Json json = {{"schema", "ccdt.verify/1"},
+                      {"input", input},
+                      {"mesh", mesh},
+                      {"ok", verification.ok()},
+                      {"mesh_volume", verification.mesh_volume},
+                      {"input_volume", verification.input_volume},
+                      {"checks", checks}};
+  if (const auto& distances = verification.distances)
+    json["distances"] = {
+        {"limit", distances->limit}, {"to_input", distances->to_input}, {"from_input", distances->from_input}};
+  return bench::to_text(json);
 }
 
 }  // namespace ccdt::reports

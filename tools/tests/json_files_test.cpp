@@ -131,6 +131,7 @@ void EveryVerb::check_and_mesh() {
   call("mesh part.off -o other.mesh --report refused.json --mesher refusing.json", {1});
   call("verify part.off part.mesh --report right.json");
   call("verify part.off even.mesh --report wrong-mesh.json", {1});
+  call("verify part.off even.mesh --within 0.2 --report within.json");
   for (const char* mesher : {"tetgen", "cgal-mesh3", "cgal-delaunay", "gmsh-hxt"})
     if (run("mesh --help").out.find(std::string("  ") + mesher + " ") != std::string::npos)
       call("mesh part.off -o " + std::string(mesher) + ".mesh --report " + mesher + "-run.json --mesher " + mesher,

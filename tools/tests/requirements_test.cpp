@@ -121,5 +121,18 @@ TEST_F(Requirements, OtherTrianglesOfFlatFacetsDoNotDeviate) {
   EXPECT_NEAR(surface["area_change"], 0, 1e-6);
 }
 
+TEST_F(Requirements, AMeshOfANewSurfaceIsVerifiedAgainstTheOldOne) {
+  const double distance = report_of("--surface remesh --edge-length 0.5", 0)["surface"]["distance"];
+  const auto verify = [&](double within, const std::string& input) {
+    return run("verify " + input + " part.vtu --report v.json --within " + std::to_string(within)).exit_code;
+  };
+  EXPECT_EQ(verify(1.01 * distance, "part.off"), 0);
+  const Json report = Json::parse(text_of(work() / "v.json"));
+  EXPECT_NEAR(larger(report["distances"]["to_input"], report["distances"]["from_input"]), distance, 0.04 * distance);
+  EXPECT_EQ(verify(0.5 * distance, "part.off"), 1);
+  EXPECT_EQ(run("verify part.off part.vtu --within 0").exit_code, 2);
+  EXPECT_EQ(run("verify part.off part.vtu --within 1 --surface own").exit_code, 2);
+}
+
 }  // namespace
 }  // namespace ccdt
