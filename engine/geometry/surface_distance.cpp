@@ -269,7 +269,7 @@ NearestTriangle::Found NearestTriangle::walk(const Point3& p, std::uint32_t near
 }
 
 NearestTriangle::Found NearestTriangle::nearest(const Point3& p, std::uint32_t near) const {
-  Found found{near, squared_distance(triangles_[near], p)};
+  Found found = walk(p, near);  // the nearer the first one is, the faster the search
   const auto lower = [&](const Box& box, double) { return squared_distance(box, p); };
   tree_.any_below(found.squared_distance, lower, [&](const BoxTree::Item& item) {
     if (const double squared = squared_distance(triangles_[item.number], p); squared < found.squared_distance)
