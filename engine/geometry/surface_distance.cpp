@@ -114,13 +114,14 @@ class Parts {
   }
 
   void bound(const Part& part, bool may_divide) {
+    if (accept(part.corners, part.near)) return;
     const Point3 center = center_of(part.corners);
-    Part same = part;
-    if (accept(same.corners, same.near)) return;
-    same.near = see(center, same.near);
-    if (accept(same.corners, same.near) || (may_divide && divide_along(same, false))) return;
-    same.near = to_.nearest(center, same.near).number;
-    if (accept(same.corners, same.near) || (may_divide && divide_along(same, true))) return;
+    Part same{part.corners, see(center, part.near)};
+    if (same.near != part.near && accept(same.corners, same.near)) return;
+    if (may_divide && divide_along(same, false)) return;
+    const std::uint32_t walked_to = std::exchange(same.near, to_.nearest(center, same.near).number);
+    if (same.near != walked_to && accept(same.corners, same.near)) return;
+    if (may_divide && divide_along(same, true)) return;
     for (const Point3& p : part.corners) see(p, same.near);  // what is really so far away raises the limit
     if (accept(part.corners, same.near)) return;
     if (may_divide)
