@@ -163,6 +163,23 @@ void clean_up(const InputPlc& input, TetMesh& mesh, std::vector<std::string>& no
   mesh.constrained_delaunay = false;
 }
 
+bool has_markers(const InputPlc& input) {
+  const auto is_marker = [](int marker) { return marker != 0; };
+  return std::ranges::any_of(input.triangle_markers, is_marker) ||
+         std::ranges::any_of(input.polygon_facets, is_marker, &plc::PolygonFacet::marker);
+}
+
+/// Leaves out the mesher's own markers if it could not know those of the input: they would be taken for each other.
+void drop_own_markers(const Description& description, const InputPlc& input, TetMesh& mesh,
+                      std::vector<std::string>& notes) {
+  if (!has_markers(input) || io::keeps_markers(input_name(description))) return;
+  mesh.face_markers.clear();
+  mesh.edge_markers.clear();
+  mesh.face_names.clear();
+  notes.push_back("the mesh has no markers: " + description.name + " reads ." + description.input_format +
+                  ", which carries none");
+}
+
 MesherRun run_described(const Description& description, const InputPlc& input, const MeshOptions& options,
                         const Progress& progress) {
   const InputPlc given = input_for_format(description, input, options);
@@ -181,6 +198,7 @@ MesherRun run_described(const Description& description, const InputPlc& input, c
   run.result.costs.mesh_seconds = said.value_or(wall_seconds);
   if (!said) run.notes.emplace_back("the seconds are those of the whole call, including start, reading and writing");
   run.result.mesh = read_output(description, input, fill_placeholders(description.output, values), folder, log);
+  drop_own_markers(description, given, run.result.mesh, run.notes);
   clean_up(given, run.result.mesh, run.notes);
   if (run.result.mesh.tetrahedra.empty())
     throw MesherError(FailureKind::wrong,

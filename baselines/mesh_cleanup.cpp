@@ -277,7 +277,7 @@ void add_boundary_faces(TetMesh& mesh) {
     if (!has_neighbor || region(i) != region(i + 1)) mesh.faces.push_back(sides[i].face);
     if (has_neighbor) ++i;
   }
-  mesh.face_markers.assign(mesh.faces.size(), 0);
+  mesh.face_markers.clear();
 }
 
 void keep_odd_regions(TetMesh& mesh) {

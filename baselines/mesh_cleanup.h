@@ -14,7 +14,7 @@ void orient_positively(TetMesh& mesh);
 std::size_t restore_coordinates(const std::vector<Point3>& input, TetMesh& mesh);
 
 /// Fills `mesh.faces` for a program that writes none: with the faces that belong to one tetrahedron, or to two in
-/// different regions. Their markers are 0.
+/// different regions. They have no markers.
 void add_boundary_faces(TetMesh& mesh);
 
 /// Removes the tetrahedra enclosed by an even number of shells of facets (`InputPlc::Inside::even_odd`), and the faces,

@@ -223,6 +223,12 @@ std::string quality_lines(const bench::Quality& q) {
          "\n            radius-edge ratio: " + measure_words(q.radius_edge_ratio) + "\n";
 }
 
+std::string surface_line(const surface::SurfaceChange& change) {
+  const auto& [x, y, z] = change.farthest;
+  return "surface     at most " + rounded(change.distance) + " from that of the input (near " + rounded(x, 6) + ", " +
+         rounded(y, 6) + ", " + rounded(z, 6) + "); area changed by " + rounded(change.area_change) + "\n";
+}
+
 /// Nothing if the mesh was not improved.
 std::string improvement(const ImproveCounts& c) {
   if (c.stop == ImproveStop::none) return "";
@@ -245,6 +251,7 @@ std::string first_rows(const ResultTable& table, std::size_t most) {
 }
 
 std::string check_word(const verify::Check& check) {
+  if (!check.not_compared.empty()) return "skipped";
   if (check.failed == 0) return "ok";
   return check.required ? "FAILED" : "differs";
 }
@@ -257,8 +264,12 @@ std::string check_lines(const std::vector<verify::Check>& checks) {
   for (const verify::Check& check : checks) {
     const std::string word = check_word(check);
     text += word + std::string(9 - word.size(), ' ') + check.name + std::string(width + 2 - check.name.size(), ' ');
-    text += check.failed == 0 ? with_separators(check.checked)
-                              : with_separators(check.failed) + " of " + with_separators(check.checked);
+    if (!check.not_compared.empty())
+      text += "not compared: " + check.not_compared;
+    else if (check.failed == 0)
+      text += with_separators(check.checked);
+    else
+      text += with_separators(check.failed) + " of " + with_separators(check.checked);
     text += "\n";
     for (const std::string& example : check.examples) text += "           " + example + "\n";
   }
@@ -267,8 +278,12 @@ std::string check_lines(const std::vector<verify::Check>& checks) {
 
 std::string volumes(const verify::Verification& verification) {
   constexpr int digits = 6;
-  return "volume   " + rounded(verification.mesh_volume, digits) +
-         " (input: " + rounded(verification.input_volume, digits) + ")\n";
+  std::string text = "volume   " + rounded(verification.mesh_volume, digits) +
+                     " (input: " + rounded(verification.input_volume, digits) + ")\n";
+  if (const auto& distances = verification.distances)
+    text += "distance " + rounded(distances->to_input) + " from the input, " + rounded(distances->from_input) +
+            " of the input from the mesh (limit: " + rounded(distances->limit) + ")\n";
+  return text;
 }
 
 }  // namespace
@@ -416,6 +431,9 @@ std::string summarize(const bench::RunRecord& r) {
           "\n";
   text += quality_lines(r.quality);
   text += improvement(c.improve);
+  if (r.surface_change) text += surface_line(*r.surface_change);
+  for (const bench::MissedRequirement& missed : r.missed)
+    text += "missed      " + words_of(missed, c.tetrahedra) + "\n";
   for (const std::string& note : r.notes) text += "note        " + note + "\n";
   return text;
 }
@@ -427,18 +445,19 @@ std::string in_one_line(const bench::RunRecord& r) {
 }
 
 std::string summarize(const verify::Verification& verification) {
-  std::vector<verify::Check> failed;
+  std::vector<verify::Check> shown;  // not those that passed
   std::size_t required = 0, passed = 0;
   for (const verify::Check& check : verification.checks) {
-    if (!check.required) continue;
+    if (!check.not_compared.empty()) shown.push_back(check);
+    if (!check.required || !check.not_compared.empty()) continue;
     ++required;
     if (check.failed == 0)
       ++passed;
     else
-      failed.push_back(check);
+      shown.push_back(check);
   }
   return "checks   " + std::to_string(passed) + " of " + std::to_string(required) + " passed (--details lists them)\n" +
-         volumes(verification) + check_lines(failed);
+         volumes(verification) + check_lines(shown);
 }
 
 std::string to_terminal(const verify::Verification& verification) {
@@ -447,19 +466,25 @@ std::string to_terminal(const verify::Verification& verification) {
 
 std::string to_json(const verify::Verification& verification, const std::string& input, const std::string& mesh) {
   bench::Json checks = bench::Json::array();
-  for (const verify::Check& check : verification.checks)
+  for (const verify::Check& check : verification.checks) {
     checks.push_back({{"name", check.name},
                       {"checked", check.checked},
                       {"failed", check.failed},
                       {"required", check.required},
                       {"examples", check.examples}});
-  return bench::to_text({{"schema", "ccdt.verify/1"},
-                         {"input", input},
-                         {"mesh", mesh},
-                         {"ok", verification.ok()},
-                         {"mesh_volume", verification.mesh_volume},
-                         {"input_volume", verification.input_volume},
-                         {"checks", checks}});
+    if (!check.not_compared.empty()) checks.back()["not_compared"] = check.not_compared;
+  }
+  bench::Json json = {{"schema", "ccdt.verify/1"},
+                      {"input", input},
+                      {"mesh", mesh},
+                      {"ok", verification.ok()},
+                      {"mesh_volume", verification.mesh_volume},
+                      {"input_volume", verification.input_volume},
+                      {"checks", checks}};
+  if (const auto& distances = verification.distances)
+    json["distances"] = {
+        {"limit", distances->limit}, {"to_input", distances->to_input}, {"from_input", distances->from_input}};
+  return bench::to_text(json);
 }
 
 }  // namespace ccdt::reports

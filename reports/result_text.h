@@ -54,7 +54,7 @@ std::string summarize(const bench::RunRecord& record);
 std::string in_one_line(const bench::RunRecord& record);
 
 /// The result of `ccdt verify` in two lines: how many tetrahedra and checks, and the volumes. Failed checks follow,
-/// each with its first examples.
+/// each with its first examples, and those for which the mesh has no data.
 std::string summarize(const verify::Verification& verification);
 
 /// All checks of `ccdt verify`: one line per check, with the first failures below it, and the volumes.

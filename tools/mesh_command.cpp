@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -16,6 +17,7 @@
 #include "baselines/stop.h"
 #include "bench/run/fingerprint.h"
 #include "bench/run/numbers.h"
+#include "bench/run/requirements.h"
 #include "bench/run/run_record.h"
 #include "bench/run/surface_limit.h"
 #include "engine/base/digits.h"
@@ -30,6 +32,7 @@
 #include "engine/repair/repair_input.h"
 #include "engine/steps/reach_count.h"
 #include "engine/surface/prepare_surface.h"
+#include "engine/surface/surface_change.h"
 #include "reports/check_text.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -52,6 +55,7 @@ struct MeshCommand {
   bool repair = false;         ///< before meshing
   std::string mesher = "ccdt";
   MeshOptions options;
+  bench::Requirements required;
   baselines::Strategies strategies = baselines::Strategies::usual;
   baselines::NamedOptions given;  ///< the options on the command line
 };
@@ -66,6 +70,8 @@ void check_surface_options(const MeshCommand& command) {
     throw CLI::ValidationError("--tetrahedra", "give an edge length to begin with, by --edge-length");
   if (!remesh && !command.repair && !command.surface_output.empty())
     throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh or --repair");
+  if (!remesh && command.required.deviation)
+    throw CLI::ValidationError("--deviation", "only --surface remesh makes a surface that deviates from the input's");
   if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
     throw CLI::ValidationError("--surface refine",
                                "only ccdt refines a surface; use --surface remesh for other meshers");
@@ -197,6 +203,7 @@ InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& optio
   record.read_seconds += surface.costs[Stage::plc].seconds;
   record.costs[Stage::remesh] = surface.costs[Stage::remesh];
   record.input.facets = surface.facets;
+  if (options.surface == SurfaceRule::remesh) record.surface_change = surface::measure_change(input, *surface.changed);
   if (surface.changed) input = *std::move(surface.changed);
   record.input.nonplanar_facets = input.warped.count;
   record.input.largest_deviation = input.warped.largest_deviation;
@@ -255,6 +262,13 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
     record.notes.push_back("hole points that are outside of everything that the facets enclose were not used: " +
                            bench::with_separators(result.idle_holes));
   record.mesh_fingerprint = bench::fingerprint(result.mesh);
+  record.required = command.required;
+  record.missed = bench::find_missed(command.required, result.mesh, record.surface_change);
+  if (record.missed.empty()) return;
+  std::vector<std::string> words;
+  for (const bench::MissedRequirement& missed : record.missed)
+    words.push_back(words_of(missed, record.counts.tetrahedra));
+  record.set_failure(baselines::FailureKind::missed, bench::joined(words, "; "));
 }
 
 /// Runs a mesher. If it refuses the input, the error also names the verb that lists everything that is wrong with it.
@@ -351,7 +365,8 @@ bool is_small(const MeshCommand& command) {
          std::filesystem::file_size(command.input, unreadable) <= small_file && !unreadable;
 }
 
-void run(MeshCommand command) {
+/// \return  does the mesh keep what was required?
+bool run(MeshCommand command) {
   if (command.mesher == "ccdt") keep_freed_memory();
   check_surface_options(command);
   check_files(command);
@@ -369,8 +384,9 @@ void run(MeshCommand command) {
   }
   if (!command.report.empty()) bench::write_run_record(record, command.report);
   print(reports::summarize(record));
-  print(command.output, Tone::good);
+  print(command.output, record.missed.empty() ? Tone::good : Tone::bad);
   print(": " + reports::in_one_line(record) + "\n");
+  return record.missed.empty();
 }
 
 std::string meshers_of_build() {
@@ -411,12 +427,27 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
 }
 
+void add_requirements(CLI::App& verb, bench::Requirements& required) {
+  constexpr double regular_dihedral = 70.53;  // no tetrahedron has more everywhere
+  verb.add_option("--require-dihedral", required.dihedral_degrees,
+                  "exit code 1 if a dihedral angle of the mesh is below this, or above 180 degrees less this")
+      ->check(number_between(0, regular_dihedral));
+  verb.add_option("--require-r", required.r, "exit code 1 if a tetrahedron has an r above this; the regular one has 1")
+      ->check(number_between(1, std::numeric_limits<double>::max()));
+  verb.add_option(
+          "--deviation", required.deviation,
+          "exit code 1 if the surface of --surface remesh may be farther than this from the old one, in units of "
+          "the input")
+      ->check(positive_number());
+}
+
 void add_options(CLI::App& verb, MeshCommand& command) {
   add_files(verb, command);
   verb.add_flag("--repair", command.repair, "repair an input that is not valid; `ccdt check` has options for that");
   verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
+  add_requirements(verb, command.required);
   add_choice(verb, "--strategies", command.strategies, "strategies that belong together; other options replace them");
   for (const baselines::MeshOption& option : baselines::mesh_options()) add_mesh_option(verb, option, command.options);
   verb.get_option("--threads")->default_str("all cores; 1 for a file up to 100 kB with --lattice none");
@@ -457,7 +488,9 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "surface-output", "report", "repair", "mesher"}) std::erase(rules.names, other);
+  for (const char* other :
+       {"output", "surface-output", "report", "repair", "mesher", "require-dihedral", "require-r", "deviation"})
+    std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);
   };
@@ -478,8 +511,7 @@ void add_mesh_command(CLI::App& app, ExitCode& exit_code) {
       option->add_result(value);
       option->run_callback();
     }
-    with_stage_of_limits(command->input, "report", [&] { run(*command); });
-    exit_code = done;
+    exit_code = with_stage_of_limits(command->input, "report", [&] { return run(*command); }) ? done : failed_a_check;
   });
 }
 

@@ -82,6 +82,11 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   add_choice(*verb, "--constrained-delaunay", command->options.delaunay,
              "whether the mesh must be constrained Delaunay");
   add_choice(*verb, "--surface", command->options.surface, "which surface the mesh must have");
+  verb->add_option("--within", command->options.within,
+                   "the mesh has its own surface, which is nowhere farther than this from that of the input, in its "
+                   "units, and encloses the same parts")
+      ->check(positive_number())
+      ->excludes(verb->get_option("--surface"));
   add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input must be");
   add_choice(*verb, "--lists", command->options.lists, "what the mesh must list");
   add_threads(*verb, command->threads);
@@ -94,8 +99,11 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       "Example: check a mesh that was improved with --boundary slide\n"
       "  ccdt verify --boundary slide part.stl part.vtu\n"
       "Example: check the mesh of a mesher that makes its own surface\n"
-      "  ccdt verify --surface own part.stl part.vtu\n");
+      "  ccdt verify --surface own part.stl part.vtu\n"
+      "Example: check that the mesh of a remeshed surface is nowhere farther than 0.1 from the part\n"
+      "  ccdt verify --within 0.1 part.stl part.vtu\n");
   verb->callback([command, &exit_code] {
+    if (command->options.within) command->options.surface = verify::VerifyOptions::Surface::own;
     exit_code = with_stage_of_limits(command->mesh, "report", [&] { return run(*command); }) ? done : failed_a_check;
   });
 }

@@ -88,6 +88,28 @@ inline constexpr auto fields<RepairedInput> = std::tuple(field("displacement", &
                                                          field("area_removed", &RepairedInput::area_removed));
 
 template <>
+inline constexpr auto fields<surface::SurfaceChange> = std::tuple(
+    field("distance", &surface::SurfaceChange::distance), field("distance_to_input", &surface::SurfaceChange::to_input),
+    field("distance_from_input", &surface::SurfaceChange::from_input),
+    field("farthest", &surface::SurfaceChange::farthest), field("area_change", &surface::SurfaceChange::area_change));
+
+template <>
+inline constexpr auto fields<Requirements> = std::tuple(field_if_any("dihedral_degrees",
+                                                                     &Requirements::dihedral_degrees),
+                                                        field_if_any("r", &Requirements::r),
+                                                        field_if_any("deviation", &Requirements::deviation));
+
+template <>
+inline constexpr auto fields<MissedRequirement::Spot> = std::tuple(field("at", &MissedRequirement::Spot::at),
+                                                                   field("value", &MissedRequirement::Spot::value));
+
+template <>
+inline constexpr auto fields<MissedRequirement> = std::tuple(field("name", &MissedRequirement::name),
+                                                             field("limit", &MissedRequirement::limit),
+                                                             field("count", &MissedRequirement::count),
+                                                             field("worst", &MissedRequirement::worst));
+
+template <>
 inline constexpr auto fields<VerifiedMesh> = std::tuple(field("right", &VerifiedMesh::right),
                                                         field("checks", &VerifiedMesh::checks),
                                                         field("seconds", &VerifiedMesh::seconds));
@@ -108,7 +130,9 @@ constexpr auto fields_after_seconds =
                field_if_any("kind", &RunRecord::kind), field_if_any("reason", &RunRecord::reason),
                field_if_any("case", &RunRecord::case_id), field_if_any("number", &RunRecord::number),
                field_if_any("verification", &RunRecord::verification), field_if_any("repaired", &RunRecord::repaired),
-               field_if_any("notes", &RunRecord::notes), field_if_any("samples", &RunRecord::samples));
+               field_if_any("surface", &RunRecord::surface_change), field_if_any("required", &RunRecord::required),
+               field_if_any("missed", &RunRecord::missed), field_if_any("notes", &RunRecord::notes),
+               field_if_any("samples", &RunRecord::samples));
 
 Json options_json(const RunRecord& record) {
   Json options = Json::object();

@@ -13,6 +13,7 @@
 #include "bench/run/environment.h"
 #include "bench/run/json.h"
 #include "bench/run/quality.h"
+#include "bench/run/requirements.h"
 
 namespace ccdt::bench {
 
@@ -63,9 +64,12 @@ struct RunRecord {
   std::string case_id;                         ///< the case of this run; empty outside a sweep
   std::optional<int> number;                   ///< of the run among those of its case, from 0
   std::optional<VerifiedMesh> verification;
-  std::optional<RepairedInput> repaired;               ///< only if the input was repaired before it was meshed
-  std::vector<std::string> notes;                      ///< what a reader must know
-  std::map<std::string, std::vector<double>> samples;  ///< raw seconds by name, if one record stands for several runs
+  std::optional<RepairedInput> repaired;                 ///< only if the input was repaired before it was meshed
+  std::optional<surface::SurfaceChange> surface_change;  ///< only if the surface was remeshed
+  Requirements required;                                 ///< of the mesh
+  std::vector<MissedRequirement> missed;                 ///< those that it misses
+  std::vector<std::string> notes;                        ///< what a reader must know
+  std::map<std::string, std::vector<double>> samples;    ///< raw seconds by name, if one record stands for several runs
 
   /// Sets the costs, and the limits that are counted among them.
   void set_costs(const StageCosts& its);

@@ -63,6 +63,20 @@ TEST(Verify, AWrongMarkerOfAListedFaceIsFound) {
   expect_ok(m);
 }
 
+TEST(Verify, MarkersThatTheMeshDoesNotHaveAreNotCompared) {
+  const auto not_compared = [](const MeshedInput& m, const char* check) {
+    const verify::Verification verification = verify::verify(m.input, m.mesh, tetrahedra_alone);
+    EXPECT_TRUE(verification.ok()) << all_lines(verification);
+    return check_named(verification, check).not_compared;
+  };
+  MeshedInput m = cube_with_faces();
+  EXPECT_EQ(not_compared(m, "face markers"), "");
+  m.mesh.face_markers.clear();
+  EXPECT_NE(not_compared(m, "face markers"), "");
+  m.input.triangle_markers.clear();
+  EXPECT_EQ(not_compared(m, "face markers"), "") << "there is nothing to compare";
+}
+
 TEST(Verify, ADuplicatedTetrahedronIsFound) {
   MeshedInput m = cube();
   m.mesh.tetrahedra.push_back(m.mesh.tetrahedra[20]);

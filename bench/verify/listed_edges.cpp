@@ -107,6 +107,8 @@ Check check_listed_edges(const plc::InputPlc& input, const Topology& topology, c
 Check check_edge_markers(const plc::InputPlc& input, const Topology& topology, const Surface& surface) {
   const mesh::TetMesh& mesh = topology.mesh;
   Check check{.name = "edge markers"};
+  if (!mesh.edges.empty() && mesh.edge_markers.empty() && !input.segment_markers.empty())
+    check.not_compared = "the mesh has no markers of edges";
   if (mesh.edge_markers.empty() || input.segment_markers.empty()) return check;
   std::vector<Edge> segments;
   for (const auto& [a, b] : input.segments) segments.push_back({surface.sites.of_input[a], surface.sites.of_input[b]});

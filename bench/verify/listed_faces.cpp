@@ -62,7 +62,11 @@ Check check_listed_facets(const Topology& topology, const FacetMatches& matches,
 Check check_face_markers(const Topology& topology, const Surface& surface, const FacetMatches& matches) {
   const mesh::TetMesh& mesh = topology.mesh;
   Check check{.name = "face markers"};
-  if (mesh.face_markers.empty()) return check;
+  if (mesh.face_markers.empty()) {
+    if (!mesh.faces.empty() && std::ranges::any_of(surface.marker, [](int marker) { return marker != 0; }))
+      check.not_compared = "the mesh has no markers of faces";
+    return check;
+  }
   std::unordered_multimap<std::uint32_t, int> markers;  // by face
   for (const MatchedFace& matched : matches.faces)
     if (surface.marker[matched.piece] != 0) markers.emplace(matched.face, surface.marker[matched.piece]);

@@ -17,7 +17,8 @@ Check check_listed_faces(const Topology& topology);
 Check check_listed_facets(const Topology& topology, const FacetMatches& matches, bool required);
 
 /// The listed faces on input facets have the markers of these facets. Facets without a marker (0) are skipped, because
-/// programs fill in any value. If several facets coincide, any of their markers is accepted.
+/// programs fill in any value. If several facets coincide, any of their markers is accepted. A mesh without markers is
+/// not compared.
 Check check_face_markers(const Topology& topology, const Surface& surface, const FacetMatches& matches);
 
 }  // namespace ccdt::verify

@@ -9,6 +9,7 @@
 
 #include "bench/verify/check_delaunay.h"
 #include "bench/verify/check_domain.h"
+#include "bench/verify/check_within.h"
 #include "bench/verify/coordinates.h"
 #include "bench/verify/crossings.h"
 #include "bench/verify/distinct_vertices.h"
@@ -408,7 +409,9 @@ void check_own_surface(const plc::InputPlc& input, const Topology& topology, con
   const Tolerances tolerances = find_tolerances(input, options.flatness);
   Surface surface = find_surface(input, match_sites(input, topology, tolerances), tolerances);
   embed_lines(surface);
-  result.input_volume = input_volume(surface, find_regions(input, surface));
+  const Regions regions = find_regions(input, surface);
+  result.input_volume = input_volume(surface, regions);
+  if (options.within && result.ok()) check_within(input, topology, boundary, surface, regions, *options.within, result);
 }
 
 Verification verify_as_it_is(const plc::InputPlc& input, const mesh::TetMesh& mesh, const VerifyOptions& options,
@@ -446,9 +449,14 @@ Verification verify(const plc::InputPlc& input, const mesh::TetMesh& mesh, const
   const int exponent = extent > 0 ? std::ilogb(extent) : 0;
   if (std::abs(exponent) <= usual_exponent) return verify_as_it_is(input, mesh, options, progress);
   const auto scaled = scale_by(std::ldexp(1, -exponent), input, mesh);  // which changes no digit
-  Verification result = verify_as_it_is(scaled.input, scaled.mesh, options, progress);
+  VerifyOptions scaled_options = options;
+  if (options.within) scaled_options.within = std::ldexp(*options.within, -exponent);
+  Verification result = verify_as_it_is(scaled.input, scaled.mesh, scaled_options, progress);
   result.mesh_volume = std::ldexp(result.mesh_volume, 3 * exponent);
   result.input_volume = std::ldexp(result.input_volume, 3 * exponent);
+  if (result.distances)
+    for (double* length : {&result.distances->limit, &result.distances->to_input, &result.distances->from_input})
+      *length = std::ldexp(*length, exponent);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,11 @@ struct VerifyOptions {
   /// `keep`: they are vertices of the mesh. `slide`: they may have moved in their facet or chain, or be missing.
   enum class Boundary { keep, slide } boundary = Boundary::keep;
   /// Whose surface must the mesh have? `same`: the input's; its facets, segments and vertices are there. `own`: the
-  /// mesher made another one, which must enclose the tetrahedra once; the input does not matter.
+  /// mesher made another one, which must enclose the tetrahedra once; the input does not matter, unless `within` is
+  /// given.
   enum class Surface { same, own } surface = Surface::same;
+  /// How far the mesher's own surface may be from that of the input, in units of the input; see `check_within`.
+  std::optional<double> within = {};
   /// What must the mesh list? `all`: the faces on facets, and the edges on segments with markers. `tetrahedra`: these
   /// alone. Other elements that it lists must be right, and complete.
   enum class Lists { all, tetrahedra } lists = Lists::all;
@@ -65,11 +69,21 @@ struct Check {
   std::uint64_t failed = 0;                ///< number of wrong ones
   bool required = true;                    ///< does a failure make the mesh wrong?
   std::vector<std::string> examples = {};  ///< the first few failures, with coordinates
+  std::string not_compared = {};           ///< why there was nothing to check, although the input asks for it
+};
+
+/// How far the facets of a mesh are from those of the input, in units of the input: upper bounds, at most 3% too large
+/// or a thousandth of the limit.
+struct Distances {
+  double limit = 0;       ///< `VerifyOptions::within`
+  double to_input = 0;    ///< no point of the mesh's facets is farther from the input's
+  double from_input = 0;  ///< no point of the input's facets is farther from the mesh's
 };
 
 struct Verification {
   std::vector<Check> checks;
   double mesh_volume = 0, input_volume = 0;
+  std::optional<Distances> distances = {};  ///< if they were limited, and the mesh encloses its tetrahedra once
   bool ok() const {
     for (const Check& c : checks)
       if (c.required && c.failed > 0) return false;

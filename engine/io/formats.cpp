@@ -16,7 +16,7 @@ namespace {
 
 struct FormatLimits {
   std::size_t most_corners = 0xFFFFFFFFu;  ///< of a facet
-  bool several_polygons = false, segments = false, seeds = false, loose_vertices = true;
+  bool several_polygons = false, segments = false, seeds = false, loose_vertices = true, markers = true;
 };
 
 /// The functions that read and write a format, and what it can hold.
@@ -28,8 +28,8 @@ struct PlcFormat {
 };
 
 constexpr PlcFormat plc_formats[] = {
-    {".stl", "STL", read_stl, write_stl, {.most_corners = 3, .loose_vertices = false}},
-    {".off", "OFF", read_off, write_off},
+    {".stl", "STL", read_stl, write_stl, {.most_corners = 3, .loose_vertices = false, .markers = false}},
+    {".off", "OFF", read_off, write_off, {.markers = false}},
     {".obj", "OBJ", read_obj, write_obj},
     {".ply", "PLY", read_ply, write_ply},
     {".poly", ".poly", read_poly, write_poly, {.several_polygons = true, .segments = true, .seeds = true}},
@@ -180,6 +180,29 @@ const TetMeshFormat& written_mesh_format(const std::filesystem::path& file, cons
 
 }  // namespace
 
+namespace {
+
+constexpr std::string_view constrained_delaunay_claim = "ccdt constrained_delaunay",
+                           no_markers_claim = "ccdt no_markers";
+
+}  // namespace
+
+std::string claims_of(const mesh::TetMesh& mesh) {
+  std::string claims;
+  const auto claim_if = [&](bool condition, std::string_view claim) {
+    if (condition) (claims += claims.empty() ? "" : ", ") += claim;
+  };
+  claim_if(mesh.constrained_delaunay, constrained_delaunay_claim);
+  claim_if(lacks_markers(mesh), no_markers_claim);
+  return claims;
+}
+
+void take_claims(std::string_view part_of_file, mesh::TetMesh& mesh) {
+  const auto is_there = [&](std::string_view claim) { return part_of_file.find(claim) != std::string_view::npos; };
+  mesh.constrained_delaunay = is_there(constrained_delaunay_claim);
+  if (is_there(no_markers_claim)) mesh.face_markers.clear(), mesh.edge_markers.clear();
+}
+
 void add_facet(plc::InputPlc& plc, std::span<const std::uint32_t> corners, int marker, std::size_t facet_number) {
   const std::uint32_t number = static_cast<std::uint32_t>(facet_number);
   if (corners.size() == 3) {
@@ -242,6 +265,11 @@ plc::InputPlc read_plc(const std::filesystem::path& file) {
     plc.notes.push_back("the file is named '" + std::string(format->ending) + "' but contains " +
                         std::string(contents->name) + ", and was read as such");
   return plc;
+}
+
+bool keeps_markers(const std::filesystem::path& file) {
+  const PlcFormat* format = format_of(file, plc_formats);
+  return format && format->limits.markers;
 }
 
 void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -111,15 +112,27 @@ std::vector<FacetLoop> facets_in_order(const plc::InputPlc& plc);
 
 /// Our writers add this comment in formats that are read with seeds if the PLC uses the even-odd rule.
 inline constexpr std::string_view even_odd_claim = "# ccdt inside even_odd";
-/// The text formats keep `TetMesh::constrained_delaunay` as words in a comment near the start of the file.
-inline constexpr std::string_view constrained_delaunay_claim = "ccdt constrained_delaunay";
 
-/// Is there such a claim near the start of the file?
-inline bool has_claim(const FileBytes& file, std::string_view claim) {
-  return std::string_view(file.bytes).substr(0, 1024).find(claim) != std::string_view::npos;
+/// The part of a text file where our claims are: comments near its start.
+inline std::string_view head_of(const FileBytes& file) {
+  return std::string_view(file.bytes).substr(0, 1024);
 }
 inline plc::InputPlc::Inside inside_claimed(const FileBytes& file) {
-  return has_claim(file, even_odd_claim) ? plc::InputPlc::Inside::even_odd : plc::InputPlc::Inside::seeds;
+  return head_of(file).find(even_odd_claim) != std::string_view::npos ? plc::InputPlc::Inside::even_odd
+                                                                      : plc::InputPlc::Inside::seeds;
+}
+
+/// What a mesh says of itself that the numbers in its file do not tell, as words of a comment; empty if there is
+/// nothing: that it is constrained Delaunay, and that it has no markers, for formats in which each element has a
+/// number.
+std::string claims_of(const mesh::TetMesh& mesh);
+
+/// Fulfills the claims in a part of a file.
+void take_claims(std::string_view part_of_file, mesh::TetMesh& mesh);
+
+/// Has the mesh faces or edges, but no markers of them?
+inline bool lacks_markers(const mesh::TetMesh& mesh) {
+  return mesh.face_markers.empty() && mesh.edge_markers.empty() && mesh.faces.size() + mesh.edges.size() > 0;
 }
 
 /// The i-th attribute; the whole list may be missing.

@@ -63,10 +63,16 @@ class GmshReader {
     sort_by_number(edge_numbers_, mesh_.edges, mesh_.edge_markers);
     sort_by_number(face_numbers_, mesh_.faces, mesh_.face_markers);
     sort_by_number(tetrahedron_numbers_, mesh_.tetrahedra, mesh_.regions);
+    if (version_ == 4) drop_missing_markers();
     return std::move(mesh_);
   }
 
  private:
+  /// Without physical groups there are no markers. (Version 2 has a tag for each element, which is 0.)
+  void drop_missing_markers() {
+    if (physical_tags_[1].empty() && physical_tags_[2].empty()) mesh_.face_markers.clear(), mesh_.edge_markers.clear();
+  }
+
   void read_format() {
     const Item item = "$MeshFormat";
     TextScanner& text = in_.text();
@@ -307,7 +313,7 @@ plc::InputPlc read_gmsh_plc(const FileBytes& file) {
 
 mesh::TetMesh read_gmsh(const FileBytes& file) {
   mesh::TetMesh mesh = GmshReader(file).read();
-  mesh.constrained_delaunay = has_claim(file, constrained_delaunay_claim);
+  take_claims(head_of(file), mesh);
   return mesh;
 }
 

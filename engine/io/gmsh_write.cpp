@@ -82,6 +82,10 @@ void write_blocks(const mesh::ElementNodes& nodes, const ElementGroups& entities
   }
 }
 
+void write_claims(const mesh::TetMesh& mesh, OutputFile& out) {
+  if (const std::string claims = claims_of(mesh); !claims.empty()) out << "$Comments\n" << claims << "\n$EndComments\n";
+}
+
 /// Names of faces, without what would end them.
 void write_names(const std::map<int, std::string>& names, OutputFile& out) {
   if (names.empty()) return;
@@ -114,7 +118,7 @@ void write_node_block(const mesh::ElementNodes& nodes, OutputFile& out) {
 void write_gmsh(const mesh::ElementNodes& nodes, OutputFile& out) {
   const mesh::TetMesh& mesh = nodes.mesh();
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-  if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+  write_claims(mesh, out);
   write_names(mesh.face_names, out);
   out << "$Nodes\n" << nodes.count() << '\n';
   const auto node = [&](std::size_t i, auto& text) { text << i + 1 << ' ' << nodes.point(i) << '\n'; };
@@ -133,7 +137,7 @@ void write_gmsh4(const mesh::ElementNodes& nodes, OutputFile& out) {
                       surfaces = group_elements(mesh.faces.size(), mesh.face_markers), volumes = volumes_of(mesh);
   out << "$MeshFormat\n4.1 1 8\n";
   put_integer(1, out) << "\n$EndMeshFormat\n";
-  if (mesh.constrained_delaunay) out << "$Comments\n" << constrained_delaunay_claim << "\n$EndComments\n";
+  write_claims(mesh, out);
 
   write_names(mesh.face_names, out);
   const Box box = mesh.vertices.empty() ? Box() : bounding_box(mesh.vertices);

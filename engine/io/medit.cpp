@@ -162,7 +162,7 @@ plc::InputPlc read_medit_plc(const FileBytes& file) {
 
 mesh::TetMesh read_medit_mesh(const FileBytes& file) {
   mesh::TetMesh mesh = read_medit(file, true).mesh;
-  mesh.constrained_delaunay = has_claim(file, constrained_delaunay_claim);
+  take_claims(head_of(file), mesh);
   return mesh;
 }
 
@@ -172,7 +172,8 @@ void write_medit_plc(const plc::InputPlc& plc, OutputFile& out) {
 }
 
 void write_medit_mesh(const mesh::TetMesh& mesh, OutputFile& out) {
-  write_medit(mesh.constrained_delaunay ? "# " + std::string(constrained_delaunay_claim) : "", mesh, {}, out);
+  const std::string claims = claims_of(mesh);
+  write_medit(claims.empty() ? "" : "# " + claims, mesh, {}, out);
 }
 
 }  // namespace ccdt::io

@@ -255,8 +255,11 @@ class MeditWriter {
   std::size_t position_ = 8;  ///< where the next section begins; at first, after the version
 };
 
-bool ends_with_claim(const FileBytes& file, std::string_view claim) {
-  return file.bytes.ends_with(claim);
+/// Where our claims are.
+std::string_view tail_of(const FileBytes& file) {
+  constexpr std::size_t longest = 128;
+  const std::string_view bytes = file.bytes;
+  return bytes.substr(bytes.size() - std::min(bytes.size(), longest));
 }
 
 }  // namespace
@@ -265,12 +268,12 @@ plc::InputPlc read_meditb_plc(const FileBytes& file) {
   using Inside = plc::InputPlc::Inside;
   MeditFile surface = MeditReader(file).read(false);
   if (!surface.has_facets()) return boundary_of(MeditReader(file).read(true));
-  return plc_of(std::move(surface), ends_with_claim(file, even_odd_claim) ? Inside::even_odd : Inside::seeds);
+  return plc_of(std::move(surface), tail_of(file).ends_with(even_odd_claim) ? Inside::even_odd : Inside::seeds);
 }
 
 mesh::TetMesh read_meditb_mesh(const FileBytes& file) {
   mesh::TetMesh mesh = MeditReader(file).read(true).mesh;
-  mesh.constrained_delaunay = ends_with_claim(file, constrained_delaunay_claim);
+  take_claims(tail_of(file), mesh);
   return mesh;
 }
 
@@ -280,7 +283,7 @@ void write_meditb_plc(const plc::InputPlc& plc, OutputFile& out) {
 }
 
 void write_meditb_mesh(const mesh::TetMesh& mesh, OutputFile& out) {
-  MeditWriter(mesh, nullptr, out).write(mesh.constrained_delaunay ? constrained_delaunay_claim : "");
+  MeditWriter(mesh, nullptr, out).write(claims_of(mesh));
 }
 
 }  // namespace ccdt::io

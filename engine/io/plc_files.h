@@ -19,6 +19,9 @@ bool is_plc_file(const std::filesystem::path& file);
 ///                    byte, and a remedy
 plc::InputPlc read_plc(const std::filesystem::path& file);
 
+/// Do the markers of facets survive in a file with this extension that `write_plc` writes?
+bool keeps_markers(const std::filesystem::path& file);
+
 /// Writes a surface or PLC. The extension determines the format: .stl (binary), .off, .obj, .ply (binary), .poly,
 /// .smesh, .mesh, .meshb. The file appears completely or not at all (it is written under a temporary name and renamed).
 ///

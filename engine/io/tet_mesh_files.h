@@ -44,8 +44,8 @@ void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file
 /// Reads a mesh that any mesher wrote in one of these formats: Medit text, .meshb versions 1 to 4, .vtu in text, base64
 /// or appended, with or without zlib, and .msh 2.x and 4.1 in text and binary. Of TetGen's files, .node and .ele must
 /// exist; .face and .edge are optional. Tetrahedra keep the order of their corners, right or wrong, so that `verify`
-/// sees it. Each attribute array has one entry per element. `constrained_delaunay` is true only if our own writer left
-/// that claim in the file.
+/// sees it. Each attribute array has one entry per element; those of markers have none if the file has no markers.
+/// `constrained_delaunay` is true only if our own writer left that claim in the file.
 ///
 /// \throw InputError  as in `read_plc`
 mesh::TetMesh read_tet_mesh(const std::filesystem::path& file);

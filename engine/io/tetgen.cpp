@@ -135,7 +135,8 @@ plc::InputPlc read_tetgen_plc(const FileBytes& file, FacetReader read_facet) {
   return plc;
 }
 
-/// "count [corners of each] attributes", then "number corners... [attribute]" for each.
+/// "count [corners of each] attributes", then "number corners... [attribute]" for each. Tetrahedra without attributes
+/// are in region 0; faces and edges without attributes have no markers.
 template <std::size_t Corners>
 void read_elements(const FileBytes& file, std::string_view kind, const TetgenNodes& nodes,
                    std::vector<std::array<std::uint32_t, Corners>>& elements, std::vector<int>& attributes) {
@@ -146,12 +147,12 @@ void read_elements(const FileBytes& file, std::string_view kind, const TetgenNod
   const bool has_attribute = !in.at_line_end() && in.integer("number of attributes") != 0;
   in.skip_line();
   elements.resize(count);
-  attributes.resize(count);
+  attributes.resize(has_attribute || Corners == 4 ? count : 0);
   read_lines(in, count, [&](TextScanner& line, std::size_t i) {
     const Item item{kind, i};
     line.integer(item);
     elements[i] = line.indices<Corners>(item, nodes.first, nodes.vertices.size());
-    attributes[i] = has_attribute && !line.at_line_end() ? line.attribute(item) : 0;
+    if (has_attribute && !line.at_line_end()) attributes[i] = line.attribute(item);
     line.skip_line();  // adjacent tetrahedra, more attributes
   });
 }
@@ -191,10 +192,13 @@ void write_seeds(const plc::InputPlc& plc, OutputFile& out) {
 template <std::size_t Corners>
 void write_elements(const std::vector<std::array<std::uint32_t, Corners>>& elements, const std::vector<int>& attributes,
                     OutputFile& out) {
+  const bool has_attribute = !attributes.empty() || Corners == 4;
+  out << elements.size() << (Corners == 4 ? " 4 " : " ") << (has_attribute ? 1 : 0) << '\n';
   const auto line = [&](std::size_t i, auto& text) {
     text << i + 1;
     write_corners(elements[i], text);
-    text << ' ' << attribute_of(attributes, i) << '\n';
+    if (has_attribute) text << ' ' << attribute_of(attributes, i);
+    text << '\n';
   };
   write_lines(elements.size(), line, out);
 }
@@ -262,7 +266,7 @@ mesh::TetMesh read_tetgen_mesh(const std::filesystem::path& file) {
   if (const auto edge_file = sibling(file, ".edge"); is_there(edge_file))
     read_elements(read_whole_file(edge_file), "edge", nodes, mesh.edges, mesh.edge_markers);
   mesh.vertices = std::move(nodes.vertices);
-  mesh.constrained_delaunay = has_claim(ele_file, constrained_delaunay_claim);
+  take_claims(head_of(ele_file), mesh);
   return mesh;
 }
 
@@ -270,12 +274,9 @@ void write_tetgen_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& f
   OutputFile node(sibling(file, ".node")), ele(sibling(file, ".ele")), face(sibling(file, ".face")),
       edge(sibling(file, ".edge"));
   write_nodes(mesh.vertices, node);
-  if (mesh.constrained_delaunay) ele << "# " << constrained_delaunay_claim << '\n';
-  ele << mesh.tetrahedra.size() << " 4 1\n";
+  if (const std::string claims = claims_of(mesh); !claims.empty()) ele << "# " << claims << '\n';
   write_elements(mesh.tetrahedra, mesh.regions, ele);
-  face << mesh.faces.size() << " 1\n";
   write_elements(mesh.faces, mesh.face_markers, face);
-  edge << mesh.edges.size() << " 1\n";
   write_elements(mesh.edges, mesh.edge_markers, edge);
   for (OutputFile* out : {&node, &ele, &face, &edge}) out->close();
   for (OutputFile* out : {&node, &ele, &face, &edge}) out->commit();

@@ -198,6 +198,8 @@ struct CellList {
   }
 
   /// The region of a tetrahedron, or the marker of a face or an edge.
+  bool has_attributes() const { return tetrahedra > 0 || !lacks_markers(mesh); }
+
   std::int32_t attribute(std::size_t cell) const {
     const mesh::TetMesh& mesh = nodes.mesh();
     if (tetrahedra > 0) return attribute_of(mesh.regions, cell);
@@ -267,7 +269,8 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
   };
   const std::array<AppendedArray, 3> cells = {std::move(corners), std::move(offsets),
                                               AppendedArray{"UInt8", "types", of_cells(&CellList::type)}};
-  const std::array<AppendedArray, 1> of_each_cell = {AppendedArray{"Int32", attribute, of_cells(&CellList::attribute)}};
+  std::vector<AppendedArray> of_each_cell;
+  if (list.has_attributes()) of_each_cell.push_back({"Int32", attribute, of_cells(&CellList::attribute)});
   std::vector<AppendedArray> of_each_point;
   if (!list.point_of_node.empty())
     of_each_point.push_back({"UInt32", vtu_point_vertex,
@@ -283,7 +286,8 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
   declare("Points", "", points, offset, out);
   declare("Cells", "", cells, offset, out);
   if (!of_each_point.empty()) declare("PointData", "", of_each_point, offset, out);
-  declare("CellData", (" Scalars=\"" + std::string(attribute) + "\"").c_str(), of_each_cell, offset, out);
+  if (!of_each_cell.empty())
+    declare("CellData", (" Scalars=\"" + std::string(attribute) + "\"").c_str(), of_each_cell, offset, out);
   out << "    </Piece>\n  </UnstructuredGrid>\n  <AppendedData encoding=\"raw\">\n_";
   for (const std::span<const AppendedArray> arrays :
        {std::span<const AppendedArray>(points), {cells}, {of_each_point}, {of_each_cell}})
@@ -304,6 +308,7 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
     refuse_first_wrong_cell(cells);
     throw;
   }
+  if (cells.markers.size() == 0) mesh.face_markers.clear(), mesh.edge_markers.clear();
   if (const auto claim = arrays.find("FieldData", "constrained_delaunay"))
     mesh.constrained_delaunay = is_one(arrays.read<std::int64_t>(claim));
   return mesh;

@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <queue>
 
-#include "engine/base/box.h"
 #include "engine/base/parallel.h"
 #include "engine/base/union_find.h"
-#include "engine/geometry/box_tree.h"
-#include "engine/geometry/closest_point.h"
+#include "engine/geometry/surface_distance.h"
 #include "engine/plc/edge_table.h"
 
 namespace ccdt::repair {
@@ -20,34 +16,6 @@ using plc::EdgeTable;
 double area_of(const Corners& t) {
   return 0.5 * length(area_vector(t));
 }
-
-/// Bounds the distance of a triangle from a set of triangles.
-class NearestTriangle {
- public:
-  explicit NearestTriangle(std::vector<Corners> triangles)
-      : triangles_(std::move(triangles)), tree_(triangles_, [](const Corners& t) { return bounding_box(t); }) {}
-
-  /// No point of t is farther from the set than the square root of this.
-  double squared_bound(const Corners& t) const {
-    double least = std::numeric_limits<double>::infinity();
-    const auto lower = [&](const Box& box, double) {
-      double most = 0;
-      for (const Point3& p : t) most = std::max(most, squared_distance(box, p));
-      return most;
-    };
-    tree_.any_below(least, lower, [&](const BoxTree::Item& item) {
-      double most = 0;
-      for (const Point3& p : t) most = std::max(most, squared_distance(triangles_[item.number], p));
-      least = std::min(least, most);
-      return least == 0;
-    });
-    return least;
-  }
-
- private:
-  std::vector<Corners> triangles_;
-  BoxTree tree_;
-};
 
 std::vector<Corners> corners_of(const plc::UncheckedPlc& soup) {
   std::vector<Corners> all;
@@ -101,13 +69,6 @@ std::optional<double> enclosed_volume(std::span<const Corners> triangles, const 
   return std::fabs(sixfold) / 6;
 }
 
-/// A part of a lid, and how far its points can be from the rim.
-struct LidPiece {
-  double squared_bound;
-  Corners corners;
-  bool operator<(const LidPiece& other) const { return squared_bound < other.squared_bound; }
-};
-
 }  // namespace
 
 double reach_of(std::span<const Corners> lid, std::span<const Point3> rim) {
@@ -116,30 +77,7 @@ double reach_of(std::span<const Corners> lid, std::span<const Point3> rim) {
     const Point3& next = rim[(i + 1) % rim.size()];
     edges.push_back({rim[i], next, next});
   }
-  const NearestTriangle nearest(std::move(edges));
-  double reached = 0;  // by a point, squared
-  std::priority_queue<LidPiece> pieces;
-  const auto add = [&](const Corners& t) {
-    const Point3 middle = (1.0 / 3) * (t[0] + t[1] + t[2]);
-    reached = std::max(reached, nearest.squared_bound({middle, middle, middle}));
-    pieces.push({nearest.squared_bound(t), t});
-  };
-  for (const Corners& t : lid) add(t);
-  constexpr double precision = 1.21;  // of squares
-  constexpr std::size_t most_pieces = 20000;
-  while (pieces.top().squared_bound > precision * reached && pieces.size() < most_pieces) {
-    const Corners t = pieces.top().corners;
-    pieces.pop();
-    std::size_t longest = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (squared_length(t[plc::next_corner(k)] - t[k]) > squared_length(t[plc::next_corner(longest)] - t[longest]))
-        longest = k;
-    const Point3 &a = t[longest], &b = t[plc::next_corner(longest)], &c = t[(longest + 2) % 3];
-    const Point3 middle = 0.5 * (a + b);
-    add({a, middle, c});
-    add({middle, b, c});
-  }
-  return std::sqrt(pieces.top().squared_bound);
+  return farthest_point(lid, NearestTriangle(std::move(edges)), {.relative = 1.1}).bound;
 }
 
 Certificate certify(const plc::UncheckedPlc& given, const plc::UncheckedPlc& repaired, std::span<const Lid> lids) {

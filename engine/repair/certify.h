@@ -1,16 +1,16 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "engine/base/point.h"
+#include "engine/geometry/surface_distance.h"
 #include "engine/plc/build_plc.h"
 #include "engine/repair/certificate.h"
 
 namespace ccdt::repair {
 
-using Corners = std::array<Point3, 3>;
+using Corners = TrianglePoints;
 
 /// What fills a hole.
 struct Lid {
@@ -25,10 +25,8 @@ struct Lid {
 /// \return  an upper bound of the largest distance, usually at most a tenth too large
 double reach_of(std::span<const Corners> lid, std::span<const Point3> rim);
 
-/// Compares a repaired surface with the given one.
-///
-/// The distance from a convex set is a convex function. So no point of a triangle is farther from a given triangle than
-/// one of its corners is. The pieces of a given triangle cover it, so the bound holds in both directions.
+/// Compares a repaired surface with the given one. Each triangle is bounded as a whole (`NearestTriangle`). The pieces
+/// of a given triangle cover it, so the bound holds in both directions.
 ///
 /// \param given  before anything was done
 Certificate certify(const plc::UncheckedPlc& given, const plc::UncheckedPlc& repaired, std::span<const Lid> lids);

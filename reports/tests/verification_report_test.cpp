@@ -41,6 +41,16 @@ TEST(VerificationReport, InShortHasTwoLinesForAMeshThatIsRight) {
   EXPECT_EQ(std::ranges::count(text, '\n'), 2) << text;
 }
 
+TEST(VerificationReport, SaysWhatWasNotCompared) {
+  verify::Verification verification = example(false);
+  verification.checks.push_back({.name = "colors", .not_compared = "the mesh has no colors"});
+  for (const std::string& text : {reports::summarize(verification), reports::to_terminal(verification)})
+    EXPECT_NE(text.find("the mesh has no colors"), std::string::npos) << text;
+  const auto json = nlohmann::json::parse(reports::to_json(verification, "a.off", "a.vtu"));
+  EXPECT_EQ(json["checks"][2]["not_compared"], "the mesh has no colors");
+  EXPECT_FALSE(json["checks"][0].contains("not_compared"));
+}
+
 TEST(VerificationReport, InJsonSaysWhatFailed) {
   const auto json = nlohmann::json::parse(reports::to_json(example(true), "a.off", "a.vtu"));
   EXPECT_EQ(json["schema"], "ccdt.verify/1");

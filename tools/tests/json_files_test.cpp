@@ -119,6 +119,10 @@ void EveryVerb::check_and_mesh() {
   call("check open.off --report open.json --repair -o repaired.off", {0, 3});
   call("mesh part.off -o part.mesh --report ok.json");
   call("mesh part.off -o even.mesh --report even.json --surface remesh --edge-length 0.3 --surface-output even.off");
+  call(
+      "mesh part.off -o rough.mesh --report missed.json --surface remesh --edge-length 0.4 --require-r 1.01 "
+      "--require-dihedral 70 --deviation 1e-6",
+      {1});
   call("mesh part.off -o fine.mesh --report fine.json --surface refine --lattice none --steiner keep --threads 2");
   call("mesh part.off -o papers.mesh --report papers.json --strategies paper");
   call("mesh open.off -o open.mesh --report invalid.json", {3});
@@ -127,6 +131,7 @@ void EveryVerb::check_and_mesh() {
   call("mesh part.off -o other.mesh --report refused.json --mesher refusing.json", {1});
   call("verify part.off part.mesh --report right.json");
   call("verify part.off even.mesh --report wrong-mesh.json", {1});
+  call("verify part.off even.mesh --within 0.2 --report within.json");
   for (const char* mesher : {"tetgen", "cgal-mesh3", "cgal-delaunay", "gmsh-hxt"})
     if (run("mesh --help").out.find(std::string("  ") + mesher + " ") != std::string::npos)
       call("mesh part.off -o " + std::string(mesher) + ".mesh --report " + mesher + "-run.json --mesher " + mesher,

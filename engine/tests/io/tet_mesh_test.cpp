@@ -35,6 +35,19 @@ TEST(TetMeshFiles, MeshesWithoutFacesAndEdges) {
   }
 }
 
+TEST(TetMeshFiles, KeepThatThereAreNoMarkers) {
+  mesh::TetMesh mesh = small_mesh();
+  mesh.face_markers.clear(), mesh.edge_markers.clear();
+  for (const std::string& name : mesh_names)
+    for (const bool claim : {true, false}) {
+      SCOPED_TRACE(name);
+      const Folder folder;
+      mesh.constrained_delaunay = claim;
+      io::write_tet_mesh(mesh, folder / name);
+      expect_same_mesh(io::read_tet_mesh(folder / name), mesh);
+    }
+}
+
 /// More vertices and elements than the threads write at a time.
 mesh::TetMesh long_mesh() {
   mesh::TetMesh mesh;

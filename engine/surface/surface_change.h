@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "engine/plc/input.h"
+
+namespace ccdt::surface {
+
+/// How far a new surface is from the one that it replaces, in units of the input. The distances are upper bounds, at
+/// most 3% too large or 1e-6 of the bounding box.
+struct SurfaceChange {
+  double distance = 0;                  ///< the Hausdorff distance: the larger one of these
+  double to_input = 0;                  ///< no point of the new surface is farther from the old one
+  double from_input = 0;                ///< no point of the old surface is farther from the new one
+  std::array<double, 3> farthest = {};  ///< a point that is about so far away
+  double area_change = 0;
+};
+
+/// \param after  made of `before`
+/// \throw InputError  a polygon is invalid
+SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& after);
+
+}  // namespace ccdt::surface
