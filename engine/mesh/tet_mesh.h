@@ -17,15 +17,9 @@ struct TetMesh {
   std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< positively oriented: ((b-a) x (c-a)) . (d-a) > 0
   std::vector<int> regions;                              ///< region attribute of each tetrahedron
   std::vector<std::array<std::uint32_t, 3>> faces;       ///< faces of the mesh on boundary and interior facets
-<<<<<<< HEAD
-  std::vector<int> face_markers;
-  std::map<int, std::string> face_names;            ///< of face markers; Gmsh's, .inp, polyMesh keep them
-  std::vector<std::array<std::uint32_t, 2>> edges;  ///< edges of the mesh on segments
-=======
   std::vector<int> face_markers;                         ///< or empty: unknown
-  std::map<int, std::string> face_names;                 ///< of face markers; Gmsh's formats keep them
+  std::map<int, std::string> face_names;                 ///< of face markers; Gmsh's, .inp, polyMesh keep them
   std::vector<std::array<std::uint32_t, 2>> edges;       ///< edges of the mesh on segments
->>>>>>> deviation
   std::vector<int> edge_markers;
   bool constrained_delaunay =
       false;  ///< does the mesh claim to be the constrained Delaunay tetrahedralization of its vertices?

@@ -12,9 +12,9 @@ namespace ccdt::steps {
 /// The options with all edge lengths times a factor. Largest volumes of regions stay, since they are limits.
 MeshOptions scaled(MeshOptions options, double factor);
 
-/// Finds the logarithm of the factor at which a mesh has a wanted number of tetrahedra: by the secant method until there
-/// are a larger and a smaller mesh, then between them, every other time in the middle. Where all edges of a curve are
-/// divided at once, the number jumps.
+/// Finds the logarithm of the factor at which a mesh has a wanted number of tetrahedra: by the secant method until
+/// there are a larger and a smaller mesh, then between them, every other time in the middle. Where all edges of a curve
+/// are divided at once, the number jumps.
 class FactorSearch {
  public:
   /// \param excess  the logarithm of the number at the current factor over the wanted one
@@ -53,8 +53,7 @@ auto reach_count(double wanted, const MeshWith& mesh_with, const CountOf& count_
   }
   throw LimitError("no sizes give about " + std::to_string(std::llround(wanted)) +
                        " tetrahedra: the nearest mesh has " + std::to_string(std::llround(wanted * std::exp(nearest))),
-                   {.file = file},
-                   "ask for another number, or let the surface change with --surface refine or remesh");
+                   {.file = file}, "ask for another number, or let the surface change with --surface refine or remesh");
 }
 
 }  // namespace ccdt::steps

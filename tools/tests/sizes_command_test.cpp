@@ -63,7 +63,8 @@ class Plate {
   /// Between the circle and the rectangle. `check --repair` is not needed: orientations of an STL do not matter.
   void add_ring(const Point3& shift) {
     for (int k = 0; k < 4; ++k) {
-      for (int i = k * sides / 4; i < (k + 1) * sides / 4; ++i) add(at(i) + shift, at(i + 1) + shift, corner(k) + shift);
+      for (int i = k * sides / 4; i < (k + 1) * sides / 4; ++i)
+        add(at(i) + shift, at(i + 1) + shift, corner(k) + shift);
       add(at(k * sides / 4) + shift, corner(k) + shift, corner(k + 3) + shift);
     }
   }
@@ -102,8 +103,9 @@ TEST_F(Program, MakesAPartFineAtAHoleAndCoarseElsewhereInOneCommand) {
   write("f.json", fine_hole);
   for (const char* surface : {"refine", "remesh"}) {
     SCOPED_TRACE(surface);
-    const Outcome outcome = run(std::string("mesh plate.stl -o plate.msh --edge-length 8 --size-field f.json --surface ") +
-                                surface + " --most-tetrahedra 25000 --report r.json");
+    const Outcome outcome =
+        run(std::string("mesh plate.stl -o plate.msh --edge-length 8 --size-field f.json --surface ") + surface +
+            " --most-tetrahedra 25000 --report r.json");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto report = nlohmann::json::parse(text_of(work() / "r.json"));
     EXPECT_GT(report["quality"]["dihedral_degrees"]["min"], 20);
@@ -146,7 +148,8 @@ TEST_F(Program, NumbersOnTheCommandLineReplaceThoseOfASizeField) {
   write("plate.stl", Plate().text());
   write("f.json", R"({"schema": "ccdt.size-field/1", "curvature_angle": 40, "elements_through": 1})");
   const auto tetrahedra = [&](const std::string& more) {
-    const Outcome outcome = run("mesh plate.stl -o plate.vtu --edge-length 12 --surface remesh --report r.json " + more);
+    const Outcome outcome =
+        run("mesh plate.stl -o plate.vtu --edge-length 12 --surface remesh --report r.json " + more);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return nlohmann::json::parse(text_of(work() / "r.json"))["counts"]["tetrahedra"].get<int>();
   };
@@ -157,7 +160,8 @@ TEST_F(Program, NumbersOnTheCommandLineReplaceThoseOfASizeField) {
 
 TEST_F(Program, ReachesANumberOfTetrahedraWithAnyMesher) {
   write("plate.stl", Plate().text());
-  for (const char* options : {"--surface refine", "--surface remesh --edge-length 8", "--edge-length 6 --surface remesh --mesher tetgen"}) {
+  for (const char* options :
+       {"--surface refine", "--surface remesh --edge-length 8", "--edge-length 6 --surface remesh --mesher tetgen"}) {
     SCOPED_TRACE(options);
     const Outcome outcome =
         run(std::string("mesh plate.stl -o plate.vtu --tetrahedra 15000 --report r.json ") + options);

@@ -65,10 +65,9 @@ std::vector<BinaryFormat> binary_formats() {
   triangles.polygon_facets.clear();
   const std::size_t vtu_end = std::string(">\n</VTKFile>\n").size();
   // In .meshb, our claim follows the keyword End; a text needs no line end after the last word.
-<<<<<<< HEAD
   return {
       {"meshb", written(small_mesh(), io::write_meditb_mesh), as_mesh(io::read_meditb_mesh),
-       io::constrained_delaunay_claim.size()},
+       io::claims_of(small_mesh()).size()},
       {"meshb surface", written(awkward_surface(), io::write_meditb_plc), as_plc(io::read_meditb_plc),
        io::even_odd_claim.size()},
       {"vtu", written(mesh::ElementNodes(small_mesh(), 1), io::write_vtu_tetrahedra), as_mesh(io::read_vtu), vtu_end},
@@ -78,18 +77,6 @@ std::vector<BinaryFormat> binary_formats() {
       {"binary msh2", binary_gmsh2(), as_mesh(io::read_gmsh), 1},
       {"ply", written(awkward_surface(), io::write_ply), as_plc(io::read_ply)},
       {"stl", written(triangles, io::write_stl), as_plc(io::read_stl)}};
-=======
-  return {{"meshb", written(small_mesh(), io::write_meditb_mesh), as_mesh(io::read_meditb_mesh),
-           io::claims_of(small_mesh()).size()},
-          {"meshb surface", written(awkward_surface(), io::write_meditb_plc), as_plc(io::read_meditb_plc),
-           io::even_odd_claim.size()},
-          {"vtu", written(small_mesh(), io::write_vtu_tetrahedra), as_mesh(io::read_vtu), vtu_end},
-          {"boundary vtu", written(small_mesh(), io::write_vtu_boundary), as_mesh(io::read_vtu), vtu_end},
-          {"msh4", written(small_mesh(), io::write_gmsh4), as_mesh(io::read_gmsh), 1},
-          {"binary msh2", binary_gmsh2(), as_mesh(io::read_gmsh), 1},
-          {"ply", written(awkward_surface(), io::write_ply), as_plc(io::read_ply)},
-          {"stl", written(triangles, io::write_stl), as_plc(io::read_stl)}};
->>>>>>> deviation
 }
 
 /// \return  is the file refused? Anything but one of our errors with its place and remedy is a failure.

@@ -1,10 +1,11 @@
+#include "engine/steps/reach_count.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/errors.h"
 #include "engine/mesher.h"
-#include "engine/steps/reach_count.h"
 #include "engine/tests/shared/mesh_checks.h"
 #include "engine/tests/shared/mesh_test_solids.h"
 
@@ -29,9 +30,7 @@ TEST(ReachCount, FindsTheFactorOfAnyPower) {
 TEST(ReachCount, FindsAFactorBesideAJump) {
   for (const double jump : {0.3, 0.7, 1.4})
     for (const double wanted : {0.8, 0.9, 2.2, 3.0}) {
-      const auto count_at = [&](double factor) {
-        return 1e4 * std::pow(factor / jump, -3) * (factor < jump ? 2 : 1);
-      };
+      const auto count_at = [&](double factor) { return 1e4 * std::pow(factor / jump, -3) * (factor < jump ? 2 : 1); };
       EXPECT_NEAR(reached(1e4 * wanted, count_at) / (1e4 * wanted), 1, 0.05);
     }
 }
