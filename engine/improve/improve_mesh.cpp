@@ -430,7 +430,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
     freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
   }
-  // First, so that improvement mends the shapes, but not if large triangles were kept: then it would try long, in vain.
+  // First, so that improvement mends the shapes; but if large triangles were kept, most attempts would fail.
   // And last, since improvement looks at shapes alone.
   constexpr double most_mended = 0.1;  // of all cells
   const std::uint64_t split = split_large_cells(complex, limits, most_mended, progress);

@@ -197,9 +197,9 @@ struct CellList {
     return tetrahedra > 0 ? vtk_tetrahedron : cell < faces ? vtk_triangle : vtk_line;
   }
 
-  /// The region of a tetrahedron, or the marker of a face or an edge.
-  bool has_attributes() const { return tetrahedra > 0 || !lacks_markers(mesh); }
+  bool has_attributes() const { return tetrahedra > 0 || !lacks_markers(nodes.mesh()); }
 
+  /// The region of a tetrahedron, or the marker of a face or an edge.
   std::int32_t attribute(std::size_t cell) const {
     const mesh::TetMesh& mesh = nodes.mesh();
     if (tetrahedra > 0) return attribute_of(mesh.regions, cell);

@@ -86,7 +86,7 @@ std::map<std::string, double> mean_lengths(const std::filesystem::path& file) {
     std::string name;
     if (std::istringstream(line) >> dimension >> marker >> std::quoted(name) && dimension == 2) names[marker] = name;
   }
-  const TetMesh mesh = io::read_tet_mesh(file);
+  const mesh::TetMesh mesh = io::read_tet_mesh(file);
   std::map<std::string, double> sums, counts;
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (std::size_t i = 0; i < 3; ++i) {
