@@ -15,6 +15,7 @@ set(public_headers
   front/segment_counts.h
   improve/counts.h
   improve/options.h
+  improver.h
   io/plc_files.h
   io/read_sizes.h
   io/tet_mesh_files.h

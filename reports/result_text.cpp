@@ -229,19 +229,6 @@ std::string surface_line(const surface::SurfaceChange& change) {
          rounded(y, 6) + ", " + rounded(z, 6) + "); area changed by " + rounded(change.area_change) + "\n";
 }
 
-/// Nothing if the mesh was not improved.
-std::string improvement(const ImproveCounts& c) {
-  if (c.stop == ImproveStop::none) return "";
-  std::string text =
-      "improvement " + with_separators(c.bad_cells) + " tetrahedra to improve: " + with_separators(c.removed_edges) +
-      " edges and " + with_separators(c.removed_faces) + " faces removed, " + with_separators(c.moved_vertices) +
-      " vertices moved, " + with_separators(c.inserted_vertices) + " inserted, " + with_separators(c.collapsed_edges) +
-      " collapsed, " + with_separators(c.reconnected_polyhedra) + " polyhedra reconnected; ";
-  if (c.stop == ImproveStop::target) return text + "all reach the target\n";
-  return text + with_separators(c.bad_cells_left) + " are left, " +
-         (c.stop == ImproveStop::time ? "because the time was up" : "because no change improves them") + "\n";
-}
-
 /// The first rows of a table, and the number of the others.
 std::string first_rows(const ResultTable& table, std::size_t most) {
   if (table.rows.size() <= most) return to_terminal(text_table(table));
@@ -421,6 +408,18 @@ std::string to_markdown(const ExperimentResult& result) {
          markdown_code(result.how.command) + "\n\n" + markdown_text(machine(result.how.environment)) + "\n";
 }
 
+std::string improvement_line(const ImproveCounts& c) {
+  if (c.stop == ImproveStop::none) return "";
+  std::string text =
+      "improvement " + with_separators(c.bad_cells) + " tetrahedra to improve: " + with_separators(c.removed_edges) +
+      " edges and " + with_separators(c.removed_faces) + " faces removed, " + with_separators(c.moved_vertices) +
+      " vertices moved, " + with_separators(c.inserted_vertices) + " inserted, " + with_separators(c.collapsed_edges) +
+      " collapsed, " + with_separators(c.reconnected_polyhedra) + " polyhedra reconnected; ";
+  if (c.stop == ImproveStop::target) return text + "all reach the target\n";
+  return text + with_separators(c.bad_cells_left) + " are left, " +
+         (c.stop == ImproveStop::time ? "because the time was up" : "because no change improves them") + "\n";
+}
+
 std::string summarize(const bench::RunRecord& r) {
   const MeshCounts& c = r.counts;
   std::string text = "vertices    " + with_separators(c.vertices) + " (" + with_separators(c.steiner_vertices) +
@@ -430,7 +429,7 @@ std::string summarize(const bench::RunRecord& r) {
   text += "seconds     " + rounded(all_seconds(r)) + stages(r) + ", peak memory " + bench::mebibytes(r.peak_rss_bytes) +
           "\n";
   text += quality_lines(r.quality);
-  text += improvement(c.improve);
+  text += improvement_line(c.improve);
   if (r.surface_change) text += surface_line(*r.surface_change);
   for (const bench::MissedRequirement& missed : r.missed)
     text += "missed      " + words_of(missed, c.tetrahedra) + "\n";

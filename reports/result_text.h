@@ -50,6 +50,9 @@ std::string to_markdown(const ExperimentResult& result);
 /// A run in a few lines: counts, Steiner vertices, seconds per stage and quality.
 std::string summarize(const bench::RunRecord& record);
 
+/// How often each change was made, with a line feed; nothing if the mesh was not improved.
+std::string improvement_line(const ImproveCounts& counts);
+
 /// A run in one line: what was made, how good it is, and how long it took.
 std::string in_one_line(const bench::RunRecord& record);
 

@@ -1,5 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <new>
+#include <string>
 
 #include "baselines/stop.h"
 #include "engine/version.h"
@@ -28,6 +30,7 @@ int main(int argc, char** argv) {
         "  ccdt mesh part.stl -o part.vtu && ccdt verify part.stl part.vtu\n");
     add_model_command(app, exit_code);
     add_mesh_command(app, exit_code);
+    add_improve_command(app, exit_code);
     add_check_command(app, exit_code);
     add_verify_command(app, exit_code);
     add_reproduce_command(app, exit_code);
@@ -44,6 +47,12 @@ int main(int argc, char** argv) {
     flush_output();
   } catch (const ccdt::baselines::Stopped&) {
     return ccdt::baselines::stopped_exit_code();
+  } catch (const std::bad_alloc& error) {
+    // So early that no stage knows of the file yet.
+    std::string words = in_words(error) + "\n  the command was:";
+    for (int i = 0; i < argc; ++i) words += " " + std::string(argv[i]);
+    print_error_line(words);
+    return exit_code_of(error);
   } catch (const std::exception& error) {
     print_error_line(in_words(error));
     return exit_code_of(error);

@@ -14,6 +14,7 @@ namespace ccdt::tools {
 /// sets the exit code; errors are thrown.
 void add_model_command(CLI::App& app, ExitCode& exit_code);
 void add_mesh_command(CLI::App& app, ExitCode& exit_code);
+void add_improve_command(CLI::App& app, ExitCode& exit_code);
 void add_check_command(CLI::App& app, ExitCode& exit_code);
 void add_verify_command(CLI::App& app, ExitCode& exit_code);
 void add_reproduce_command(CLI::App& app, ExitCode& exit_code);

@@ -66,6 +66,7 @@ class EarlyEnd : public Program {
         {{"mesh", "part.off", "-o", "o.meshb", "--surface", "refine", "--edge-length", "5"}, {"o.meshb"}},
         {{"check", "part.off", "--report", "r.json"}, {"r.json"}},
         {{"check", "broken.off", "--repair", "-o", "c.off", "--limit", "5"}, {"c.off"}, {}, {}, {0, 3}},
+        {{"improve", "part.vtu", "-o", "o.mesh"}, {"o.mesh"}},
         {{"verify", "part.off", "part.vtu", "--report", "r.json"}, {"r.json"}},
         {{"sweep", "spec.json", "-o", "new"}, {}, {}, "new"},
         {{"reproduce", "fig7", "--scale", "1000", "-o", "new"}, {}, {}, "new"},

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "bench/run/quality.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/tests/shared/mesh_test_solids.h"
@@ -157,6 +159,44 @@ TEST_F(ImproveCommand, WrongValuesAreWrongUsage) {
     EXPECT_EQ(file_count(), 1u) << options;
   }
   EXPECT_EQ(run("verify cube.off cube.off --boundary move").exit_code, 2);
+}
+
+TEST_F(Program, ImproveMakesTheMeshOfAnotherMesherBetterAndKeepsItRight) {
+  ASSERT_EQ(run("model piston --edge-length 6 -o part.poly").exit_code, 0);
+  const auto worst_of = [&](const std::string& mesh) {
+    double worst = 0;
+    const TetMesh read = io::read_tet_mesh(work() / mesh);
+    for (const auto& [a, b, c, d] : read.tetrahedra)
+      worst = std::max(worst,
+                       bench::shape_measure({read.vertices[a], read.vertices[b], read.vertices[c], read.vertices[d]}));
+    return worst;
+  };
+  for (const char* mesher : {"tetgen", "cgal-mesh3"})
+    for (const char* ending : {"mesh", "vtu", "msh", "node"}) {
+      SCOPED_TRACE(std::string(mesher) + " " + ending);
+      const std::string mesh = std::string("theirs.") + ending, better = std::string("better.") + ending;
+      ASSERT_EQ(run("mesh part.poly -o " + mesh + " --edge-length 6 --mesher " + mesher).exit_code, 0);
+      const Outcome outcome = run("improve " + mesh + " -o " + better);
+      ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+      EXPECT_LT(worst_of(better), 0.8 * worst_of(mesh));
+      const std::string own = mesher == std::string("tetgen") ? "" : " --surface own";
+      EXPECT_EQ(run("verify part.poly " + better + own).exit_code, 0);
+    }
+}
+
+TEST_F(Program, ImproveRefusesWhatIsNoMesh) {
+  ASSERT_EQ(run("model cube --edge-length 1 -o part.poly").exit_code, 0);
+  ASSERT_EQ(run("mesh part.poly -o part.mesh").exit_code, 0);
+  EXPECT_EQ(run("improve none.mesh -o better.mesh").exit_code, 3);
+  EXPECT_EQ(run("improve part.poly -o better.mesh").exit_code, 3);
+  EXPECT_EQ(run("improve part.mesh -o part.mesh").exit_code, 3);
+  EXPECT_EQ(run("improve part.mesh -o better.xyz").exit_code, 3);
+  EXPECT_EQ(run("improve part.mesh").exit_code, 2);
+  write("flat.mesh",
+        "MeshVersionFormatted 2\nDimension 3\nVertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n1 1 0 0\n"
+        "Tetrahedra 1\n1 2 3 4 0\nEnd\n");
+  EXPECT_EQ(run("improve flat.mesh -o better.mesh").exit_code, 3);
+  EXPECT_FALSE(std::filesystem::exists(work() / "better.mesh"));
 }
 
 }  // namespace

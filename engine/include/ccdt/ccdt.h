@@ -1,9 +1,10 @@
 #pragma once
 
 /// \file
-/// All that the library offers: reading, checking, repairing, meshing and writing.
+/// All that the library offers: reading, checking, repairing, meshing, improving and writing.
 
 #include "engine/base/errors.h"
+#include "engine/improver.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"

@@ -1,0 +1,72 @@
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "baselines/option_table.h"
+#include "bench/run/numbers.h"
+#include "bench/run/quality.h"
+#include "engine/improver.h"
+#include "engine/io/files.h"
+#include "engine/io/tet_mesh_files.h"
+#include "reports/result_text.h"
+#include "tools/commands.h"
+#include "tools/limit_errors.h"
+#include "tools/options.h"
+#include "tools/progress_bar.h"
+#include "tools/terminal.h"
+
+namespace ccdt::tools {
+namespace {
+
+struct ImproveCommand {
+  std::string mesh, output, format;
+  MeshOptions options;
+};
+
+std::string words_of(const bench::Quality& quality, std::size_t tetrahedra) {
+  return bench::with_separators(tetrahedra) + " tetrahedra, dihedral angles " +
+         bench::rounded(quality.dihedral_degrees.min) + " to " + bench::rounded(quality.dihedral_degrees.max) +
+         " degrees, r: mean " + bench::rounded(quality.r.mean) + ", worst " + bench::rounded(quality.r.max);
+}
+
+void run(const ImproveCommand& command) {
+  io::check_tet_mesh_output(command.output, command.format, 1);
+  check_can_be_written(command.output);
+  check_are_different(command.mesh, command.output);
+  with_progress(command.mesh, command.options.threads, [&](const Progress& progress) {
+    TetMesh mesh = io::read_tet_mesh(command.mesh);
+    const std::string before = words_of(bench::measure_quality(mesh), mesh.tetrahedra.size());
+    ImprovedMesh improved = with_file_in_errors(command.mesh, [&] {
+      return improve_tet_mesh(std::move(mesh), command.options.improve, command.options.threads, progress);
+    });
+    report(progress, "write", 0, 0);
+    io::write_tet_mesh(improved.mesh, command.output, command.format);
+    print("before      " + before + "\n" + reports::improvement_line(improved.counts));
+    print(command.output, Tone::good);
+    print(": " + words_of(bench::measure_quality(improved.mesh), improved.mesh.tetrahedra.size()) + "\n");
+  });
+}
+
+}  // namespace
+
+void add_improve_command(CLI::App& app, ExitCode& exit_code) {
+  auto command = std::make_shared<ImproveCommand>();
+  CLI::App* verb = app.add_subcommand("improve", "improve any tetrahedral mesh; its boundary and regions stay");
+  verb->add_option("MESH", command->mesh, "mesh to improve: .vtu .msh .msh4 .mesh .meshb .node")->required();
+  verb->add_option("-o,--output", command->output, "improved mesh: any format that `ccdt mesh` writes")->required();
+  verb->add_option("--format", command->format, "format of the mesh, if not that of its extension")
+      ->check(CLI::IsMember(io::tet_mesh_formats()));
+  for (const char* name : {"improve", "objective", "target-dihedral", "target-r", "improve-time", "threads"})
+    add_mesh_option(*verb, *baselines::find_mesh_option(name), command->options);
+  verb->footer(
+      "Faces and edges that the mesh lists, its boundary, and faces between regions stay, with their vertices. Other\n"
+      "vertices may move or go.\n\n"
+      "Example: improve the mesh of another mesher until all dihedral angles are between 25 and 155 degrees\n"
+      "  ccdt improve tetgen.mesh -o better.vtu --target-dihedral 25\n");
+  verb->callback([command, &exit_code] {
+    with_stage_of_limits(command->mesh, "improve", [&] { run(*command); });
+    exit_code = done;
+  });
+}
+
+}  // namespace ccdt::tools
