@@ -163,9 +163,9 @@ TEST_F(ImproveCommand, WrongValuesAreWrongUsage) {
 
 TEST_F(Program, ImproveMakesTheMeshOfAnotherMesherBetterAndKeepsItRight) {
   ASSERT_EQ(run("model piston --edge-length 6 -o part.poly").exit_code, 0);
-  const auto worst_of = [&](const std::string& mesh) {
+  const auto worst_of = [&](const std::string& name) {
     double worst = 0;
-    const TetMesh read = io::read_tet_mesh(work() / mesh);
+    const mesh::TetMesh read = io::read_tet_mesh(work() / name);
     for (const auto& [a, b, c, d] : read.tetrahedra)
       worst = std::max(worst,
                        bench::shape_measure({read.vertices[a], read.vertices[b], read.vertices[c], read.vertices[d]}));
