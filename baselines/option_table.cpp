@@ -125,7 +125,7 @@ std::vector<MeshOption> make_table() {
        .of_remeshing = true},
       {.name = "size-field",
        .kind = FileKind{[](MeshOptions& o) -> std::string& { return o.local.name; }},
-       .what = "file with edge lengths for markers, regions, boxes and balls (JSON, schema ccdt.size-field/1)",
+       .what = "file with edge lengths for markers, regions, boxes and balls (JSON, schema ccdt.sizefield/1)",
        .in_report = "the file with the size field; empty: none",
        .of_inside = true,
        .of_refinement = true,

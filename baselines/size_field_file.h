@@ -6,7 +6,7 @@
 
 namespace ccdt::baselines {
 
-/// Reads a size field (JSON, schema `ccdt.size-field/1`).
+/// Reads a size field (JSON, schema `ccdt.sizefield/1`).
 ///
 /// \throw InputError  the file cannot be read or is not one; names the place, and says what to write there
 sizes::LocalSizes read_size_field(const std::filesystem::path& file);

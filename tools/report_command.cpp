@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bench/results/sweep_result.h"
+#include "engine/base/errors.h"
 #include "reports/report.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
@@ -31,7 +32,14 @@ std::string verdicts(const reports::Report& report) {
 
 /// Writes a report, and prints what could not be made and, last, where the report is.
 void write_and_print(const reports::Report& report, const std::filesystem::path& folder) {
-  const reports::WrittenReport written = reports::write_report(report, folder, share_folder());
+  const reports::WrittenReport written = [&] {
+    try {
+      return reports::write_report(report, folder, share_folder());
+    } catch (MemoryError& error) {
+      error.place().file = folder.string();  // whichever file of the program was read last
+      throw;
+    }
+  }();
   std::ranges::for_each(written.notes, print_error_line);
   const auto place = std::filesystem::absolute(written.page.empty() ? folder : written.page).lexically_normal();
   print("\nThe report is in\n" + place.string() + "\n");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/tests/shared/gzipped.h"
 #include "tools/tests/program.h"
 
 namespace ccdt {
@@ -58,20 +59,6 @@ std::string compressed_mesh(std::size_t size) {
 <DataArray type="UInt8" Name="types" format="ascii">10</DataArray>
 </Cells></Piece></UnstructuredGrid><AppendedData encoding="raw">_)" +
          header + packed.substr(0, length) + "</AppendedData></VTKFile>";
-}
-
-/// As gzip compresses it.
-std::string gzipped(const std::string& text) {
-  z_stream state{};
-  deflateInit2(&state, Z_BEST_COMPRESSION, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
-  std::string packed(deflateBound(&state, text.size()), '\0');
-  state.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
-  state.avail_in = static_cast<uInt>(text.size());
-  state.next_out = reinterpret_cast<Bytef*>(packed.data());
-  state.avail_out = static_cast<uInt>(packed.size());
-  deflate(&state, Z_FINISH);
-  deflateEnd(&state);
-  return packed.substr(0, state.total_out);
 }
 
 /// Vertices that zlib makes nearly a hundred times shorter: behind them is as much that it cannot shorten.

@@ -118,6 +118,10 @@ void EveryVerb::check_and_mesh() {
   write("open.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n");
   call("check open.off --report open.json --repair -o repaired.off", {0, 3});
   call("mesh part.off -o part.mesh --report ok.json");
+  write("field.json", R"({"schema": "ccdt.sizefield/1", "what": "all", "curvature_angle": 40, "elements_through": 1,
+    "sizes": [{"edge_length": 0.4, "markers": [0], "within": 0.1, "boxes": [{"low": [0, 0, 0], "high": [1, 1, 1]}]},
+              {"volume": 0.1, "regions": [1], "balls": [{"center": [1, 0, 0], "radius": 0.1}]}]})");
+  call("mesh part.off -o sized.mesh --report sized.json --size-field field.json");
   call("mesh part.off -o even.mesh --report even.json --surface remesh --edge-length 0.3 --surface-output even.off");
   call(
       "mesh part.off -o rough.mesh --report missed.json --surface remesh --edge-length 0.4 --require-r 1.01 "

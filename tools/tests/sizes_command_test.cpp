@@ -75,7 +75,7 @@ class Plate {
 };
 
 constexpr const char* fine_hole =
-    R"({"schema": "ccdt.size-field/1", "sizes": [{"edge_length": 2, "markers": ["hole"]}]})";
+    R"({"schema": "ccdt.sizefield/1", "sizes": [{"edge_length": 2, "markers": ["hole"]}]})";
 
 /// The mean length of the edges of faces, by the physical name of their marker.
 std::map<std::string, double> mean_lengths(const std::filesystem::path& file) {
@@ -128,7 +128,7 @@ TEST_F(Program, TellsWhatIsWrongWithASizeField) {
   EXPECT_EQ(code("{}"), 3);
   EXPECT_EQ(code("nonsense"), 3);
   const auto size = [](const std::string& members) {
-    return R"({"schema": "ccdt.size-field/1", "sizes": [{)" + members + "}]}";
+    return R"({"schema": "ccdt.sizefield/1", "sizes": [{)" + members + "}]}";
   };
   EXPECT_EQ(code(size(R"("edge_length": 3)")), 0);
   EXPECT_EQ(code(size(R"("markers": ["hole"])")), 3);
@@ -146,7 +146,7 @@ TEST_F(Program, TellsWhatIsWrongWithASizeField) {
 
 TEST_F(Program, NumbersOnTheCommandLineReplaceThoseOfASizeField) {
   write("plate.stl", Plate().text());
-  write("f.json", R"({"schema": "ccdt.size-field/1", "curvature_angle": 40, "elements_through": 1})");
+  write("f.json", R"({"schema": "ccdt.sizefield/1", "curvature_angle": 40, "elements_through": 1})");
   const auto tetrahedra = [&](const std::string& more) {
     const Outcome outcome =
         run("mesh plate.stl -o plate.vtu --edge-length 12 --surface remesh --report r.json " + more);
