@@ -215,11 +215,11 @@ void add_thin_parts(const plc::Plc& plc, double elements, double usual, std::vec
 
 }  // namespace
 
-void check_local_sizes(const LocalSizes& local) {
-  const Place place{.file = local.name};
-  check_number("angle of curvature", local.curvature_angle, 0, 180);
-  check_number("number of elements through thin parts", local.elements_through, 0, 1000);
-  for (const LocalSize& size : local.sizes) {
+void check_local_sizes(const LocalSizes& sizes) {
+  const Place place{.file = sizes.name};
+  check_number("angle of curvature", sizes.curvature_angle, 0, 180);
+  check_number("number of elements through thin parts", sizes.elements_through, 0, 1000);
+  for (const LocalSize& size : sizes.sizes) {
     check_number("local edge length", size.edge_length);
     check_number("largest volume", size.volume);
     check_number("distance of a local edge length", size.within);
@@ -230,7 +230,8 @@ void check_local_sizes(const LocalSizes& local) {
         throw InputError("a box of a local edge length is not one", place,
                          "give the lower coordinates first, then the higher ones");
     for (const Ball& ball : size.balls)
-      if (!is_finite(ball.center) || !(ball.radius >= 0 && ball.radius <= largest_argument))
+      if (const bool has_radius = ball.radius >= 0 && ball.radius <= largest_argument;
+          !has_radius || !is_finite(ball.center))
         throw InputError("a ball of a local edge length is not one", place, "give a center and a radius");
   }
 }
