@@ -22,6 +22,9 @@ namespace {
 /// A mesh with such sizes would have far more tetrahedra.
 constexpr std::size_t most_places = 1 << 24;
 
+/// At most so many cubes wait for the function at a time.
+constexpr std::size_t most_cubes = 1 << 22;
+
 /// Curved surfaces and thin parts never need shorter edges than this share of the usual length.
 constexpr double least_share = 0.02;
 
@@ -102,12 +105,14 @@ class Lister {
   std::vector<SizedPlace> take() && { return std::move(places_); }
 
  private:
+  [[noreturn]] void refuse_too_many() const {
+    throw LimitError("the local edge lengths are too short for the places that they are wanted at",
+                     {.file = file_.empty() ? plc_.name : file_}, "give longer edges, or smaller places");
+  }
   Point3 in_grid(const Point3& p) const { return (1 / plc_.grid.unit) * (p - plc_.grid.origin); }
 
   void add(const Box& box, double length) {
-    if (places_.size() == most_places)
-      throw LimitError("the local edge lengths are too short for the places that they are wanted at",
-                       {.file = file_.empty() ? plc_.name : file_}, "give longer edges, or smaller places");
+    if (places_.size() == most_places) refuse_too_many();
     places_.push_back({expanded(box, within_), length});
   }
   void add(const Box& box) { add(box, length_); }
@@ -197,7 +202,7 @@ void Lister::add_function(const SizeFunction& function) {
             [&](const Box& cube) { children.push_back(cube); });
       else if (wanted < HUGE_VAL)
         add(cubes[i], wanted);
-      if (children.size() > most_places) add({}, 0);  // too many
+      if (children.size() > most_cubes) refuse_too_many();
     }
     cubes = std::move(children);
   }

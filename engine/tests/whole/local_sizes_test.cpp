@@ -252,6 +252,8 @@ TEST(LocalSizes, ThatNothingInTheInputHasAreRefused) {
   MeshOptions options;
   options.local.function = [](std::span<const Point3>, std::span<double> lengths) { lengths[0] = 0; };
   EXPECT_THROW(mesh_plc(marked_cube(), options), InputError);
+  options.local.function = [](std::span<const Point3>, std::span<double> lengths) { std::ranges::fill(lengths, 1e-9); };
+  EXPECT_THROW(mesh_plc(marked_cube(), options), LimitError);
   options.local.function = {};
   options.local.sizes = {{.edge_length = 1e-9, .markers = {1}}};
   EXPECT_THROW(mesh_plc(marked_cube(), options), LimitError);
