@@ -124,8 +124,9 @@ void list_walls(mesh::TetMesh& mesh) {
 
 /// Numbers the vertices anew: first those that must stay, then the interior ones.
 ///
-/// \return  the number of those that must stay
-std::uint32_t number_vertices(mesh::TetMesh& mesh) {
+/// \param points  the vertices on the grid
+/// \return        the number of those that must stay
+std::uint32_t number_vertices(mesh::TetMesh& mesh, std::vector<Point3>& points) {
   std::vector<char> stays(mesh.vertices.size(), 1);
   for (const auto& t : mesh.tetrahedra)
     for (const std::uint32_t v : t) stays[v] = 0;
@@ -137,9 +138,13 @@ std::uint32_t number_vertices(mesh::TetMesh& mesh) {
   std::vector<std::uint32_t> order(mesh.vertices.size()), number(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto interior = std::ranges::stable_partition(order, [&](std::uint32_t v) { return stays[v] != 0; });
-  std::vector<Point3> vertices(order.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) number[order[i]] = i, vertices[i] = mesh.vertices[order[i]];
-  mesh.vertices = std::move(vertices);
+  const std::vector<Point3> vertices = std::move(mesh.vertices), on_grid = points;
+  mesh.vertices.resize(order.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) {
+    number[order[i]] = i;
+    mesh.vertices[i] = vertices[order[i]];
+    points[i] = on_grid[order[i]];
+  }
   const auto renumber = [&](auto& elements) {
     for (auto& element : elements)
       for (std::uint32_t& v : element) v = number[v];
@@ -174,11 +179,10 @@ ImprovedMesh improve_on_threads(mesh::TetMesh mesh, const improve::ImproveOption
   if (!mesh.edges.empty()) check_edges(mesh);
   plc::Plc original;  // has what `mesh::to_world` needs
   original.grid = make_grid(mesh.vertices);
-  to_grid(mesh, original.grid);
+  original.vertices = to_grid(mesh, original.grid);
   const bool has_markers = !mesh.face_markers.empty() || mesh.faces.empty();
   list_walls(mesh);
-  const std::uint32_t first_interior = number_vertices(mesh);
-  original.vertices = to_grid(mesh, original.grid);
+  const std::uint32_t first_interior = number_vertices(mesh, original.vertices);
   original.world = std::move(mesh.vertices);
   std::vector<std::uint32_t> facets(mesh.faces.size());  // each its own, so none is flipped
   std::iota(facets.begin(), facets.end(), 0u);
