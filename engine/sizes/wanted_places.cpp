@@ -266,8 +266,6 @@ void set_volumes(const LocalSizes& sizes, plc::Plc& plc) {
 std::vector<SizedPlace> wanted_places(const plc::InputPlc& input, const plc::Plc& plc, const LocalSizes& sizes,
                                       double edge_length, double sharp_angle) {
   check_local_sizes(sizes);
-  const auto has_limit = [](const plc::Region& region) { return region.largest_volume > 0; };
-  if (sizes.empty() && std::ranges::none_of(plc.regions, has_limit)) return {};  // listing markers takes time
   Lister lister(input, plc, sizes);
   for (const LocalSize& size : sizes.sizes) lister.add(size);
   lister.add_volumes();

@@ -1,5 +1,6 @@
 #include "engine/steps/make_plc.h"
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <utility>
@@ -57,6 +58,8 @@ void find_wanted_sizes(const InputPlc& input, plc::Plc& plc, Run& run) {
   sizes::set_volumes(options.local, plc);
   if (options.lattice == Lattice::none && options.surface != SurfaceRule::refine)
     for (plc::Region& region : plc.regions) region.largest_volume = 0;  // nothing is added inside
+  const auto has_limit = [](const plc::Region& region) { return region.largest_volume > 0; };
+  if (options.local.empty() && options.background.empty() && std::ranges::none_of(plc.regions, has_limit)) return;
   const double usual = (options.edge_length > 0 ? options.edge_length : plc::longest_edge(input)) / plc.grid.unit;
   run.wanted = {sizes::wanted_places(input, plc, options.local, usual, to_radians(options.sharp_angle)),
                 sizes::in_grid_units(options.background, plc.grid)};
