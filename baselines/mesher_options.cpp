@@ -101,7 +101,7 @@ std::vector<OptionUse> options_of_engine() {
 NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options) {
   const Asked asked(options);
   const std::string surface = asked.value("surface");
-  const bool is_remeshed = surface == "remesh";
+  const bool is_remeshed = surface == "remesh" || surface == "auto";
   const bool is_refined = surface == "refine" && mesher.name == "ccdt";  // others do not refine
   const auto use_of = [&](const std::string& name) {
     return std::ranges::find(mesher.options, name, &OptionUse::name);

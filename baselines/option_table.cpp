@@ -35,7 +35,8 @@ ChoiceKind switch_of(std::string_view on, std::string_view off, bool MeshOptions
 }
 
 std::vector<MeshOption> make_table() {
-  const std::vector<Need> remeshing = {{"surface", true, "remesh"}}, improvement = {{"improve", false, "none"}};
+  const std::vector<Need> remeshing = {{"surface", false, "keep"}, {"surface", false, "refine"}},
+                          improvement = {{"improve", false, "none"}};
   return {
       {.name = "face-protection",
        .kind = switch_of("only faces that are not Delaunay, found by a check", "all", &MeshOptions::face_protection),
@@ -63,7 +64,14 @@ std::vector<MeshOption> make_table() {
       {.name = "sharp-angle",
        .kind = NumberKind{[](MeshOptions& o) -> double& { return o.sharp_angle; }, 1, 179},
        .what = "remeshing keeps edges between facets whose normals differ by more than this, in degrees",
-       .in_report = "degrees; only with remesh",
+       .in_report = "degrees; only with remesh and auto",
+       .needs = remeshing,
+       .of_remeshing = true},
+      {.name = "deviation",
+       .kind = NumberKind{.member = [](MeshOptions& o) -> double& { return o.deviation; }, .excludes_least = true},
+       .what = "the new surface stays within this distance of the input's, in units of the input; 0: any distance,\n"
+               "or with --surface auto a ten-thousandth of the diagonal of the bounding box",
+       .in_report = "in units of the input; 0: any; only with remesh and auto",
        .needs = remeshing,
        .of_remeshing = true},
       {.name = "threads",

@@ -63,10 +63,7 @@ MeshResult finish(const ProtectedDomain& domain, Tetrahedralization t, Run& run)
 
 MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   const surface::PreparedSurface surface =
-      surface::prepare_surface(input, options.surface,
-                               {options.edge_length, options.sharp_angle, options.flatness, &options.local,
-                                &options.background, options.most_tetrahedra, options.surface_factor},
-                               progress);
+      surface::prepare_surface(input, options.surface, remesh_options_of(options), progress);
   Run run{options, progress, surface.costs};
   run.options.edge_length = surface.edge_length;
   ProtectedDomain domain;

@@ -34,17 +34,19 @@ void check_surface_options(const MeshCommand& command) {
   const bool remesh = command.options.surface == SurfaceRule::remesh;
   const bool has_sizes =
       !command.options.background.name.empty() || !command.options.local.name.empty() || !command.options.local.empty();
+  const bool changes = surface::makes_new_surface(command.options.surface);
   if (remesh && command.options.edge_length == 0 && !has_sizes)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
   if (command.options.tetrahedra > 0 && command.options.edge_length == 0 && command.mesher != "ccdt")
     throw CLI::ValidationError("--tetrahedra", "give an edge length to begin with, by --edge-length");
-  if (!remesh && !command.repair && !command.surface_output.empty())
-    throw CLI::ValidationError("--surface-output", "there is no new surface without --surface remesh or --repair");
-  if (!remesh && command.required.deviation)
-    throw CLI::ValidationError("--deviation", "only --surface remesh makes a surface that deviates from the input's");
+  if (!changes && !command.repair && !command.surface_output.empty())
+    throw CLI::ValidationError("--surface-output",
+                               "there is no new surface without --surface auto, remesh or --repair");
+  if (!changes && command.options.deviation > 0)
+    throw CLI::ValidationError("--deviation", "only --surface auto and remesh make a surface that deviates");
   if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
     throw CLI::ValidationError("--surface refine",
-                               "only ccdt refines a surface; use --surface remesh for other meshers");
+                               "only ccdt refines a surface; use --surface auto or remesh for other meshers");
 }
 
 /// File formats that keep the vertices of a surface exactly, so that its mesh can be verified against it.
@@ -87,6 +89,7 @@ bool is_small(const MeshCommand& command) {
 
 /// \return  does the mesh keep what was required?
 bool run(MeshCommand command) {
+  if (command.options.deviation > 0) command.required.deviation = command.options.deviation;
   if (command.mesher == "ccdt") keep_freed_memory();
   check_surface_options(command);
   check_files(command);
@@ -122,6 +125,8 @@ constexpr const char* mesh_footer =
     "  ccdt mesh part.stl -o part.vtu --edge-length 2 --report part.json\n"
     "Example: take edge lengths from the size function part.sol, which is defined on the mesh part.mesh\n"
     "  ccdt mesh part.stl -o part.vtu --sizes part.sol\n"
+    "Example: give a CAD part even triangles, near its surface, that follow fillets and merge needles\n"
+    "  ccdt mesh part.stl -o part.vtu --surface auto\n"
     "Example: remesh the surface to the same edge length, and keep it for `ccdt verify`\n"
     "  ccdt mesh part.stl -o part.vtu --edge-length 2 --surface remesh --surface-output even.off\n"
     "Example: keep flat facets and straight segments, but give them new vertices and even triangles\n"
@@ -154,11 +159,6 @@ void add_requirements(CLI::App& verb, bench::Requirements& required) {
       ->check(number_between(0, regular_dihedral));
   verb.add_option("--require-r", required.r, "exit code 1 if a tetrahedron has an r above this; the regular one has 1")
       ->check(number_between(1, std::numeric_limits<double>::max()));
-  verb.add_option(
-          "--deviation", required.deviation,
-          "exit code 1 if the surface of --surface remesh may be farther than this from the old one, in units of "
-          "the input")
-      ->check(positive_number());
 }
 
 void add_options(CLI::App& verb, MeshCommand& command) {
@@ -208,8 +208,8 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "format", "order", "surface-output", "report", "repair", "mesher",
-                            "require-dihedral", "require-r", "deviation"})
+  for (const char* other :
+       {"output", "format", "order", "surface-output", "report", "repair", "mesher", "require-dihedral", "require-r"})
     std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);

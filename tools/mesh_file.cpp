@@ -55,7 +55,7 @@ std::string note_of(const std::map<int, std::string>& names) {
 std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
   if (chosen.name == "ccdt") return {};
-  const bool remesh = command.options.surface == SurfaceRule::remesh;
+  const bool remesh = surface::makes_new_surface(command.options.surface);
   std::vector<std::string> notes;
   for (const auto& [name, value] : command.given) {
     const baselines::MeshOption* const option = baselines::find_mesh_option(name);
@@ -123,14 +123,12 @@ void read_size_files(const MeshCommand& command, MeshOptions& options, bench::Ru
 InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& options, const Progress& progress,
                   bench::RunRecord& record) {
   surface::PreparedSurface surface =
-      surface::prepare_surface(input, options.surface,
-                               {options.edge_length, options.sharp_angle, options.flatness, &options.local,
-                                &options.background, options.most_tetrahedra, options.surface_factor},
-                               progress);
+      surface::prepare_surface(input, options.surface, remesh_options_of(options), progress);
   record.read_seconds += surface.costs[Stage::plc].seconds;
   record.costs[Stage::remesh] = surface.costs[Stage::remesh];
   record.input.facets = surface.facets;
-  if (options.surface == SurfaceRule::remesh) record.surface_change = surface::measure_change(input, *surface.changed);
+  if (surface::makes_new_surface(options.surface))
+    record.surface_change = surface::measure_change(input, *surface.changed);
   if (surface.changed) input = *std::move(surface.changed);
   record.input.nonplanar_facets = input.warped.count;
   record.input.largest_deviation = input.warped.largest_deviation;
@@ -140,7 +138,7 @@ InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& optio
                            " is longer than the whole part: " + bench::rounded(surface.edge_length) +
                            ", the diagonal of its bounding box, was used instead; check the unit");
   options.edge_length = surface.edge_length;
-  if (options.surface == SurfaceRule::remesh) {
+  if (surface::makes_new_surface(options.surface)) {
     record.notes.push_back("the surface was remeshed from " + bench::with_separators(surface.facets) + " to " +
                            bench::with_separators(input.facet_count()) + " facets");
     options.surface = SurfaceRule::keep;
@@ -155,7 +153,7 @@ std::string words_of(const bench::SurfaceLimit& limit) {
          bench::with_separators(limit.bad_tetrahedra) + " tetrahedra with r above " +
          bench::rounded(bench::SurfaceLimit::bad_r) + " touch surface triangles with an angle below " +
          bench::rounded(bench::SurfaceLimit::bad_angle) + " degrees (smallest: " + bench::rounded(limit.least_angle) +
-         "); --surface refine puts even triangles on flat facets, --surface remesh on curved surfaces, too";
+         "); --surface refine puts even triangles on flat facets, --surface auto on curved surfaces, too";
 }
 
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.
@@ -177,7 +175,7 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   record.largest_rounding = result.largest_rounding;
   record.mesher_settings = run.settings;
   record.notes.insert(record.notes.end(), run.notes.begin(), run.notes.end());
-  if (record.mesher.name != "ccdt" && command.options.surface != SurfaceRule::remesh)
+  if (record.mesher.name != "ccdt" && !surface::makes_new_surface(command.options.surface))
     for (const std::string& file : {options.background.name, options.local.name})
       if (!file.empty()) record.notes.push_back("only ccdt uses size functions: " + file + " was not used");
   record.quality = bench::measure_quality(result.mesh);

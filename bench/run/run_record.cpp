@@ -275,7 +275,8 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
   record.input.segments = input.segments.size();
   MeshOptions own = options;
   for (const baselines::MeshOption& option : baselines::mesh_options()) {
-    if (option.name == "sharp-angle" && options.surface != SurfaceRule::remesh) continue;
+    if ((option.name == "sharp-angle" || option.name == "deviation") && !surface::makes_new_surface(options.surface))
+      continue;
     record.options.emplace_back(option_key(option.name), recorded_value(option, own));
   }
   record.set_option("threads", static_cast<double>(number_of_threads(options)));

@@ -181,11 +181,12 @@ class Parts {
   Point3 at_;
 };
 
-double largest_coordinate_of(std::span<const TrianglePoints> triangles) {
+/// The rounding of points on the triangles.
+double rounding_of(std::span<const TrianglePoints> triangles) {
   double largest = 0;
   for (const TrianglePoints& t : triangles)
     for (const Point3& p : t) largest = std::max({largest, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-  return largest;
+  return 8 * std::numeric_limits<double>::epsilon() * largest;
 }
 
 /// Equal for equal points.
@@ -302,7 +303,7 @@ FarthestPoint farthest_point(std::span<const TrianglePoints> from, const Nearest
   // All triangles have the limit that follows from these points, so that the result does not depend on threads.
   const double limit =
       std::max(precision.absolute * precision.absolute, precision.relative * precision.relative * farthest.reached);
-  const double rounding = 8 * std::numeric_limits<double>::epsilon() * largest_coordinate_of(from);
+  const double rounding = rounding_of(from);
   const auto bound_some = [&](std::size_t begin, std::size_t end) {
     FarthestPoint found;
     std::uint32_t near = 0;
@@ -321,6 +322,28 @@ FarthestPoint farthest_point(std::span<const TrianglePoints> from, const Nearest
   farthest.bound = std::sqrt(farthest.bound) + (farthest.bound > 0 ? rounding : 0);
   farthest.reached = std::sqrt(farthest.reached);
   return farthest;
+}
+
+std::vector<Point3> points_beyond(std::span<const TrianglePoints> from, const NearestTriangle& to, double limit) {
+  const DistancePrecision precision;
+  const double rounding = rounding_of(from);
+  const auto find_some = [&](std::size_t begin, std::size_t end) {
+    std::vector<Point3> found;
+    std::uint32_t near = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      Parts parts(to, limit * limit, precision, rounding);
+      near = parts.add(from[i], near);
+      if (parts.squared_reached() > 0)
+        found.push_back(parts.at());
+      else if (parts.squared_bound() > limit * limit)
+        found.push_back(center_of(from[i]));
+    }
+    return found;
+  };
+  std::vector<Point3> all;
+  for (const std::vector<Point3>& some : parallel_chunks(from.size(), triangles_at_a_time, find_some))
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
 }
 
 }  // namespace ccdt

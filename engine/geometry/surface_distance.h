@@ -71,4 +71,10 @@ struct DistancePrecision {
 FarthestPoint farthest_point(std::span<const TrianglePoints> from, const NearestTriangle& to,
                              const DistancePrecision& precision);
 
+/// Points of a surface that are farther than a limit from another, or nearly so: at least 0.97 times the limit. One for
+/// each triangle that has such points.
+///
+/// \param to  not empty
+std::vector<Point3> points_beyond(std::span<const TrianglePoints> from, const NearestTriangle& to, double limit);
+
 }  // namespace ccdt

@@ -59,6 +59,7 @@ struct MeshOptions {
   double grid_scale = 1;     ///< factor of the cell size of the paper's uniform grids (section 4)
   SurfaceRule surface = SurfaceRule::keep;
   double sharp_angle = surface::usual_sharp_angle;  ///< see RemeshOptions
+  double deviation = 0;                             ///< see RemeshOptions
   double thin_tetrahedra = 2e6;                     ///< about how many thin places of a refined surface may cause
   double edge_length = 0;  ///< target edge length in the units of the input; 0: that of the surface or, if that
                            ///< is refined, a fortieth of the diagonal of the bounding box. Remeshing needs one
@@ -76,6 +77,18 @@ struct MeshOptions {
   double tetrahedra = 0;       ///< scale all sizes until the mesh has this many, within five percent; 0: do not
   double most_tetrahedra = 0;  ///< refuse to make more, if possible before they are made; 0: any number
 };
+
+/// What remeshing gets of the options, which must live as long.
+inline surface::RemeshOptions remesh_options_of(const MeshOptions& options) {
+  return {.edge_length = options.edge_length,
+          .sharp_angle = options.sharp_angle,
+          .flatness = options.flatness,
+          .deviation = options.deviation,
+          .local = &options.local,
+          .background = &options.background,
+          .most_tetrahedra = options.most_tetrahedra,
+          .usual_factor = options.surface_factor};
+}
 
 struct MeshCounts {
   std::uint64_t vertices = 0;           ///< of the mesh

@@ -302,7 +302,8 @@ bool may_become_straight(const WorkingMesh& m, const KnotOnCurve& at, const Coll
   const double size = length(m.knots[b].position - m.knots[a].position), wanted = m.wanted_length(a, b);
   if (a == b || size > aim.longest * wanted) return false;
   const double reference = aim.measure == TriangleMeasure::area ? size : std::max(size, wanted);
-  if (m.features.curves[at.curve].deviation(at.arcs[0], at.arcs[1]) > aim.most_deviation * reference) return false;
+  const double most = std::min(m.deviation, aim.most_deviation * reference);
+  if (m.features.curves[at.curve].deviation(at.arcs[0], at.arcs[1]) > most) return false;
   return !are_joined(m, a, b);
 }
 

@@ -223,7 +223,8 @@ bool follows_curve(const WorkingMesh& m, std::uint32_t knot, const KnotOnCurve& 
   for (int i = 0; i < 2; ++i) {
     const double deviation = curve.deviation(arc, at.arcs[i]);
     const double size = std::max(length(m.knots[at.others[i]].position - p), m.wanted_length(knot, at.others[i]));
-    if (deviation > most_deviation_of_improved * size && deviation > curve.deviation(now, at.arcs[i])) return false;
+    const double most = std::min(m.deviation, most_deviation_of_improved * size);
+    if (deviation > most && deviation > curve.deviation(now, at.arcs[i])) return false;
   }
   return true;
 }

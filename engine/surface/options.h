@@ -12,17 +12,29 @@ namespace ccdt::surface {
 /// Which triangles bound the mesh.
 enum class SurfaceRule {
   keep,
-  remesh,  ///< new triangles that follow the surface; see `remesh_surface`
-  refine   ///< facets and segments stay, and get vertices for even triangles; see `refine::refine_plc`
+  remesh,     ///< new triangles that follow the surface; see `remesh_surface`
+  automatic,  ///< new triangles that keep to a small distance from the surface; see `usual_deviation`
+  refine      ///< facets and segments stay, and get vertices for even triangles; see `refine::refine_plc`
 };
 
 constexpr auto names_of(SurfaceRule) {
   return std::to_array<NamedValue<SurfaceRule>>(
       {{SurfaceRule::keep, "keep", "keep the triangles of the input"},
        {SurfaceRule::remesh, "remesh", "make new triangles of --edge-length; sharp edges stay"},
+       {SurfaceRule::automatic, "auto",
+        "make new triangles of --edge-length that stay within --deviation, by default a ten-thousandth of\n"
+        "the diagonal of the bounding box: keep what is wider, round off what is narrower"},
        {SurfaceRule::refine, "refine",
         "make new triangles of --edge-length on the same flat facets and straight segments"}});
 }
+
+/// Does the rule replace the triangles of the input?
+constexpr bool makes_new_surface(SurfaceRule rule) {
+  return rule == SurfaceRule::remesh || rule == SurfaceRule::automatic;
+}
+
+/// From the surface, with `SurfaceRule::automatic`: a share of the diagonal of the bounding box.
+inline constexpr double usual_deviation = 1e-4;
 
 /// At 30 degrees, a circle of twelve or more edges counts as round (CAD programs draw none coarser), and a 45-degree
 /// chamfer is still kept.
@@ -35,6 +47,8 @@ struct RemeshOptions {
   double sharp_angle = usual_sharp_angle;
 
   double flatness = usual_flatness;  ///< see PlcOptions
+
+  double deviation = 0;  ///< no point of either surface is farther from the other, in the units of the input; 0: any
 
   // Where edges should be shorter; null or empty: nowhere.
   const sizes::LocalSizes* local = nullptr;

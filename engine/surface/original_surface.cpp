@@ -1,8 +1,10 @@
 #include "engine/surface/original_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "engine/base/point.h"
@@ -12,6 +14,7 @@
 #include "engine/geometry/closest_point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/surface/wide_bends.h"
 
 namespace ccdt::surface {
 
@@ -58,14 +61,15 @@ std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const p
 
 class SurfaceCutter {
  public:
-  SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness)
+  SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, const RemeshOptions& options)
       : plc_(plc),
-        cosine_(portable::cosine(to_radians(sharp_angle + 1e-6))),
-        cosine_at_tips_(portable::cosine(to_radians(turn_at_tip(sharp_angle)))) {
+        cosine_(portable::cosine(to_radians(options.sharp_angle + 1e-6))),
+        cosine_at_tips_(portable::cosine(to_radians(turn_at_tip(options.sharp_angle)))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
-    segments_ = declared_segments(input, plc, plc::tolerance_of(plc, flatness));
+    segments_ = declared_segments(input, plc, plc::tolerance_of(plc, options.flatness));
     collect_triangles();
+    if (options.deviation > 0) keep_wide_bends(options.deviation);
   }
 
   OriginalSurface cut() {
@@ -94,6 +98,59 @@ class SurfaceCutter {
     }
   }
 
+  /// Keeps bends that are too wide for the deviation. Edges of which a part is kept are split.
+  void keep_wide_bends(double deviation) {
+    edges_ = plc::make_edge_table(corners_);
+    find_features();
+    const std::vector<double> turns = turns_of_wide_bends(bent_surface(), is_feature_, deviation);
+    for (std::uint32_t e = 0; e < turns.size(); ++e)
+      if (turns[e] > 0) is_feature_[e] = 1;
+    join_patches();
+    join_wedges();
+    std::vector<WideBend> waiting =
+        trim_in_narrow_wedges(bent_surface(), surface_.wedges, is_feature_, turns, deviation);
+    while (!waiting.empty()) {
+      edges_ = plc::make_edge_table(corners_);
+      std::vector<char> is_split(corners_.size(), 0);
+      std::vector<WideBend> next;
+      for (const WideBend& bend : waiting) {
+        const auto [a, b] = bend.ends;
+        if (bend.from > bend.to) {
+          round_off(bend);
+          continue;
+        }
+        if (bend.from <= 0 && bend.to >= 1) {
+          bends_.insert(edge_key(a, b));
+          continue;
+        }
+        const std::uint32_t e = edges_.find(a, b);
+        if (std::ranges::any_of(edges_.around(e), [&](std::uint32_t t) { return is_split[t] != 0; })) {
+          next.push_back(bend);  // in the next round
+          continue;
+        }
+        for (const std::uint32_t t : edges_.around(e)) is_split[t] = 1;
+        const double share = bend.from > 0 ? bend.from : bend.to;
+        const VertexId at = split_edge(e, share);
+        if (bend.from > 0) {
+          round_off({{a, at}, 0, 0, bend.longest});
+          next.push_back({{at, b}, 0, 1 - (1 - bend.to) / (1 - share), bend.longest});
+        } else {
+          round_off({{at, b}, 0, 0, bend.longest});
+          next.push_back({{a, at}});
+        }
+      }
+      waiting = std::move(next);
+    }
+  }
+
+  void round_off(const WideBend& bend) {
+    const Point3 a = surface_.points[bend.ends[0]], b = surface_.points[bend.ends[1]];
+    const double pieces = std::ceil(length(b - a) / bend.longest);
+    for (double i = 0; i < pieces; ++i)
+      surface_.rounded.push_back(
+          {hull(box_of(a + (i / pieces) * (b - a)), box_of(a + ((i + 1) / pieces) * (b - a))), bend.longest});
+  }
+
   void turn(std::uint32_t t) {
     std::swap(corners_[t][1], corners_[t][2]);
     surface_.triangle_normals[t] = -1 * surface_.triangle_normals[t];
@@ -105,11 +162,11 @@ class SurfaceCutter {
     return plc::runs_along(corners_[around[0]], a, b) != plc::runs_along(corners_[around[1]], a, b);
   }
 
-  bool is_sharp(std::uint32_t e) const {
-    const auto around = edges_.around(e);
-    const double cosine = dot(surface_.triangle_normals[around[0]], surface_.triangle_normals[around[1]]);
-    return (oriented_alike(e) ? cosine : -cosine) < cosine_;
+  BentSurface bent_surface() const {
+    return {surface_.points, corners_, surface_.triangle_normals, surface_.facet_of, edges_};
   }
+
+  bool is_sharp(std::uint32_t e) const { return cosine_of_turn(bent_surface(), e) < cosine_; }
 
   void find_features() {
     segment_markers_.clear();
@@ -120,7 +177,8 @@ class SurfaceCutter {
       const auto around = edges_.around(e);
       is_feature_[e] = around.size() != 2 ||
                        segment_markers_.contains(edge_key(edges_.ends[e][0], edges_.ends[e][1])) ||
-                       marker_of(around[0]) != marker_of(around[1]) || is_sharp(e);
+                       marker_of(around[0]) != marker_of(around[1]) || is_sharp(e) ||
+                       bends_.contains(edge_key(edges_.ends[e][0], edges_.ends[e][1]));
     }
   }
 
@@ -201,15 +259,16 @@ class SurfaceCutter {
       any = true;
       if (!untouched) continue;  // in the next round
       for (const std::uint32_t t : edges_.around(e)) is_split[t] = 1;
-      split_edge(e);
+      split_edge(e, 0.5);
     }
     return any;
   }
 
-  void split_edge(std::uint32_t e) {
+  /// \return  the new vertex, at this share of the edge
+  VertexId split_edge(std::uint32_t e, double share) {
     const auto [a, b] = edges_.ends[e];
     const VertexId middle(surface_.points.size());
-    surface_.points.push_back(surface_.points[a] + 0.5 * (surface_.points[b] - surface_.points[a]));
+    surface_.points.push_back(surface_.points[a] + share * (surface_.points[b] - surface_.points[a]));
     surface_.is_listed_alone.push_back(0);
     for (const std::uint32_t t : edges_.around(e)) {
       plc::VertexTriple half = corners_[t];
@@ -225,6 +284,8 @@ class SurfaceCutter {
       segments_.add(middle, b, segments_.markers[s]);
       break;
     }
+    if (bends_.contains(edge_key(a, b))) bends_.insert({edge_key(a, middle), edge_key(middle, b)});
+    return middle;
   }
 
   void collect_features() {
@@ -271,6 +332,7 @@ class SurfaceCutter {
 
   const plc::Plc& plc_;
   double cosine_, cosine_at_tips_;
+  std::unordered_set<std::uint64_t> bends_;  // by edge key: kept, although not sharp
   plc::SegmentSet segments_;
   SegmentMarkers segment_markers_;
   std::vector<plc::VertexTriple> corners_;
@@ -281,8 +343,8 @@ class SurfaceCutter {
 
 }  // namespace
 
-OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness) {
-  return SurfaceCutter(input, plc, sharp_angle, flatness).cut();
+OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, const RemeshOptions& options) {
+  return SurfaceCutter(input, plc, options).cut();
 }
 
 ClosestPoint::ClosestPoint(const OriginalSurface& surface)

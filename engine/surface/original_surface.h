@@ -9,6 +9,8 @@
 #include "engine/geometry/box_tree.h"
 #include "engine/plc/input.h"
 #include "engine/plc/plc.h"
+#include "engine/sizes/size_field.h"
+#include "engine/surface/options.h"
 
 namespace ccdt::surface {
 
@@ -45,7 +47,8 @@ struct OriginalSurface {
   std::vector<Point3> wedge_normals;  ///< of length one: mean over the wedge, weighted by angles; zero at a tip, such
                                       ///< as that of a cone, where the surface has no normal
   std::vector<FeatureEdge> features;
-  std::vector<char> is_listed_alone;  ///< by point: the input lists it, but no facet or segment uses it
+  std::vector<sizes::SizedPlace> rounded;  ///< parts of wide bends that are not features, and the longest edge there
+  std::vector<char> is_listed_alone;       ///< by point: the input lists it, but no facet or segment uses it
 
   std::array<Point3, 3> corners(std::uint32_t triangle) const {
     const auto& [a, b, c] = triangles[triangle];
@@ -55,7 +58,7 @@ struct OriginalSurface {
 
 /// \param plc          of this input, built with the same flatness
 /// \param sharp_angle  see RemeshOptions, as for the flatness
-OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness);
+OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, const RemeshOptions& options);
 
 /// A point of the original surface.
 struct Foot {

@@ -28,13 +28,16 @@ PreparedSurface prepare_surface(const plc::InputPlc& input, SurfaceRule rule, Re
   const plc::InputPlc& flat = surface.changed ? *surface.changed : input;
   surface.facets = flat.facet_count();
   const double longest = plc::longest_edge(flat);
-  if (options.edge_length == 0 && (rule == SurfaceRule::refine || (rule == SurfaceRule::remesh && options.has_sizes())))
+  const bool has_usual_length = rule == SurfaceRule::refine || rule == SurfaceRule::automatic ||
+                                (rule == SurfaceRule::remesh && options.has_sizes());
+  if (options.edge_length == 0 && has_usual_length)
     options.edge_length = options.usual_factor * (has_volumes_alone(flat) ? longest : longest / 40);
   options.edge_length = std::min(options.edge_length, longest);
   surface.edge_length = options.edge_length;
   if (rule != SurfaceRule::keep && options.edge_length > 0)
     plc::check_edges_of_surface(flat, options.edge_length, options.most_tetrahedra);
-  if (rule == SurfaceRule::remesh) {
+  if (rule == SurfaceRule::automatic && options.deviation == 0) options.deviation = usual_deviation * longest;
+  if (makes_new_surface(rule)) {
     const StageScope scope(surface.costs[Stage::remesh]);
     surface.changed = remesh_surface(flat, options, progress);
   }

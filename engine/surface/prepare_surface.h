@@ -22,8 +22,9 @@ struct PreparedSurface {
 /// bounds the edge length, and remeshes.
 ///
 /// \param options  A length beyond the diagonal of the bounding box becomes that diagonal, since it would only make the
-///                 lattice's octree too large. With `SurfaceRule::refine`, and for remeshing with other sizes, length 0
-///                 becomes a fortieth of the diagonal, or the diagonal if all regions have a largest volume
+///                 lattice's octree too large. With `SurfaceRule::refine` and `automatic`, and for remeshing with other
+///                 sizes, length 0 becomes a fortieth of the diagonal, or the diagonal if all regions have a largest
+///                 volume
 /// \throw InputError, MeshError  as in `plc::triangulate_warped_facets` and `remesh_surface`
 /// \throw LimitError             a new surface would have too many vertices
 PreparedSurface prepare_surface(const plc::InputPlc& input, SurfaceRule rule, RemeshOptions options,

@@ -19,6 +19,7 @@
 #include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/sizes/wanted_places.h"
+#include "engine/surface/surface_change.h"
 #include "engine/surface/working_mesh.h"
 
 namespace ccdt::surface {
@@ -38,6 +39,9 @@ constexpr int most_attempts = 9;
 // The edge length is halved within this many edge lengths of the place where triangles cross.
 constexpr double halved_around = 1.6;
 
+// `measure_change` reports a bound.
+constexpr double bound_over_distance = 1.03;
+
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   const Place place{.file = input.name};
   const bool is_positive = options.edge_length > 0 && std::isfinite(options.edge_length);
@@ -45,6 +49,7 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
     throw InputError("the edge length for remeshing is not a positive number", place,
                      "give the edge length of the new surface, in the units of the input");
   check_number("flatness", options.flatness);
+  check_number("deviation", options.deviation);
   const bool is_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
   if (!is_angle)
     throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place,
@@ -185,12 +190,17 @@ struct Defects {
   std::string words;
 };
 
-Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const RemeshOptions& options) {
+Defects find_defects(const plc::InputPlc& input, const plc::InputPlc& result, const plc::Plc& before,
+                     const RemeshOptions& options) {
   Defects defects{find_crossings(result, options.flatness), "triangles of the new surface cross each other"};
   if (!defects.places.empty()) return defects;
   try {
     const plc::Plc after = plc::build_plc(result, {options.flatness});
-    if (regions_of(after) == regions_of(before)) return {};
+    if (regions_of(after) == regions_of(before)) {
+      if (options.deviation == 0) return {};
+      return {points_beyond(input, result, options.deviation / bound_over_distance),
+              "the new surface is too far from the old one"};
+    }
     defects.words = "the new surface divides space differently from the old one";
     for (const plc::InputPlc::RegionSeed& region : result.regions) defects.places.push_back(region.seed);
     defects.places.insert(defects.places.end(), result.holes.begin(), result.holes.end());
@@ -203,13 +213,15 @@ Defects find_defects(const plc::InputPlc& result, const plc::Plc& before, const 
 }
 
 /// Merges places near each other into one, with the longest edge of the triangles there.
-std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface, double usual) {
+std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface,
+                                const RemeshOptions& options) {
+  const double usual = options.edge_length, tolerance = std::max(1e-6 * usual, options.deviation);
   const auto corners = [&](std::size_t t) {
     const auto& [a, b, c] = surface.triangles[t];
     return std::array<Point3, 3>{surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
   const BoxTree tree(std::views::iota(std::size_t{0}, surface.triangles.size()),
-                     [&](std::size_t t) { return expanded(bounding_box(corners(t)), 1e-6 * usual); });
+                     [&](std::size_t t) { return expanded(bounding_box(corners(t)), tolerance); });
   std::vector<SizedPlace> kept;
   for (const Point3& p : places) {
     double edge = 0;
@@ -277,22 +289,24 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
   check_options(input, options);
   plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
   if (options.local != nullptr) sizes::set_volumes(*options.local, plc);
-  const OriginalSurface original = cut_surface(input, plc, options.sharp_angle, options.flatness);
+  const OriginalSurface original = cut_surface(input, plc, options);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
-  const sizes::SizeField shape = lengths_of_shape(plc, original, features, options.edge_length);
+  const double deviation = options.deviation > 0 ? options.deviation : HUGE_VAL;
+  const sizes::SizeField shape = lengths_of_shape(plc, original, features, options.edge_length, deviation);
   std::vector<SizedPlace> shorter = wanted_places_of(input, plc, options);
+  shorter.insert(shorter.end(), original.rounded.begin(), original.rounded.end());
   sizes::SizeField lengths(options.edge_length, length_growth, shorter, options.background);
   std::vector<char> frozen(original.triangles.size(), 0);
   for (int attempt = 0;; ++attempt) {
-    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, shape, frozen);
+    WorkingMesh mesh = make_working_mesh(original, features, closest, lengths, shape, deviation, frozen);
     remesh(mesh, rounds_of_all, progress);
     for (int halving = 0;; ++halving) {
       note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
       plc::InputPlc result = to_plc(mesh, input);
-      const Defects defects = find_defects(result, plc, options);
+      const Defects defects = find_defects(input, result, plc, options);
       if (defects.places.empty()) return result;
-      const std::vector<SizedPlace> places = thinned(defects.places, result, options.edge_length);
+      const std::vector<SizedPlace> places = thinned(defects.places, result, options);
       if (halving == most_halvings) {
         if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
         ++work_done.remeshing_halvings;

@@ -26,12 +26,16 @@ double sum_of_areas(const std::vector<TrianglePoints>& triangles) {
   return sum;
 }
 
+/// A power of two changes no digit, and squares of lengths neither overflow nor vanish.
+int exponent_of(const plc::InputPlc& input) {
+  const double extent = largest_extent(input.vertices);
+  return extent > 0 ? std::ilogb(extent) : 0;
+}
+
 }  // namespace
 
 SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& after) {
-  // A power of two changes no digit, and squares of lengths neither overflow nor vanish.
-  const double extent = largest_extent(before.vertices);
-  const int exponent = extent > 0 ? std::ilogb(extent) : 0;
+  const int exponent = exponent_of(before);
   const double scale = std::ldexp(1, -exponent);
   const std::vector<TrianglePoints> old_ones = scaled_triangles(before, scale),
                                     new_ones = scaled_triangles(after, scale);
@@ -46,6 +50,18 @@ SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& a
   change.farthest = as_array((1 / scale) * (to.bound > from.bound ? to : from).at);
   change.area_change = std::ldexp(sum_of_areas(new_ones) - sum_of_areas(old_ones), 2 * exponent);
   return change;
+}
+
+std::vector<Point3> points_beyond(const plc::InputPlc& before, const plc::InputPlc& after, double distance) {
+  const double scale = std::ldexp(1, -exponent_of(before));
+  const std::vector<TrianglePoints> old_ones = scaled_triangles(before, scale),
+                                    new_ones = scaled_triangles(after, scale);
+  if (old_ones.empty() || new_ones.empty()) return {};
+  std::vector<Point3> points = ccdt::points_beyond(new_ones, NearestTriangle(old_ones), scale * distance);
+  const std::vector<Point3> others = ccdt::points_beyond(old_ones, NearestTriangle(new_ones), scale * distance);
+  points.insert(points.end(), others.begin(), others.end());
+  for (Point3& p : points) p = (1 / scale) * p;
+  return points;
 }
 
 }  // namespace ccdt::surface

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
+#include "engine/base/point.h"
 #include "engine/plc/input.h"
 
 namespace ccdt::surface {
@@ -19,5 +21,10 @@ struct SurfaceChange {
 /// \param after  made of `before`
 /// \throw InputError  a polygon is invalid
 SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& after);
+
+/// Points of either surface that are farther from the other than a distance, or nearly so: at least 0.97 times it.
+///
+/// \throw InputError  a polygon is invalid
+std::vector<Point3> points_beyond(const plc::InputPlc& before, const plc::InputPlc& after, double distance);
 
 }  // namespace ccdt::surface

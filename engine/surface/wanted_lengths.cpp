@@ -17,7 +17,7 @@ constexpr double shortening = 0.9;  // from one tried length to the next
 
 // The longest edge at a point of a curve that stays near the curve. An edge as long as a piece of the chain is always
 // allowed: each bend may get a vertex.
-double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
+double length_at(const FeatureCurve& curve, std::size_t i, double usual, double deviation) {
   const double whole = curve.arc.back();
   const double before = i > 0 ? curve.arc[i] - curve.arc[i - 1] : 0;
   const double after = i + 1 < curve.arc.size() ? curve.arc[i + 1] - curve.arc[i] : 0;
@@ -25,7 +25,7 @@ double length_at(const FeatureCurve& curve, std::size_t i, double usual) {
   double edge = std::min(usual, whole);
   for (; edge > least; edge *= shortening) {
     const double from = std::clamp(curve.arc[i] - 0.5 * edge, 0.0, whole - edge);
-    if (curve.deviation(from, from + edge) <= most_deviation * edge) break;
+    if (curve.deviation(from, from + edge) <= std::min(deviation, most_deviation * edge)) break;
   }
   return std::min({std::max(edge, least), usual, whole});
 }
@@ -48,6 +48,18 @@ double& wanted_at(WorkingMesh& m, VertexHandle v) {
 
 void limit(double& wanted, double most, double least) {
   wanted = std::min(wanted, std::max(most, least));
+}
+
+/// On a circle, the middles of equilateral triangles are not farther away than the wanted deviation.
+void limit_by_deviation(WorkingMesh& m) {
+  if (m.deviation == HUGE_VAL) return;
+  for (const EdgeHandle e : m.mesh.edges()) {
+    const auto [a, b] = m.ends(e);
+    const double turn = length(m.at(b).normal - m.at(a).normal);
+    if (m.is_flat(a) || m.is_tip(a) || m.is_tip(b) || turn == 0) continue;
+    const double most = std::sqrt(6 * m.deviation * m.edge_length(a, b) / turn);
+    for (const VertexHandle v : {a, b}) limit(wanted_at(m, v), most, 4 * m.deviation);
+  }
 }
 
 void limit_by_edges(WorkingMesh& m) {
@@ -161,11 +173,12 @@ std::vector<sizes::SizedPlace> find_walls(const plc::Plc& plc, const OriginalSur
 }  // namespace
 
 sizes::SizeField lengths_of_shape(const plc::Plc& plc, const OriginalSurface& surface, const FeatureCurves& features,
-                                  double usual) {
+                                  double usual, double deviation) {
   std::vector<sizes::SizedPlace> places = find_walls(plc, surface, usual);
   for (const FeatureCurve& curve : features.curves)
     for (std::size_t i = 0; i < curve.points.size(); ++i)
-      places.push_back({box_of(curve.points[i]), std::max(length_at(curve, i, usual), least_by_curve * usual)});
+      places.push_back(
+          {box_of(curve.points[i]), std::max(length_at(curve, i, usual, deviation), least_by_curve * usual)});
   return {usual, length_growth, places};
 }
 
@@ -176,6 +189,7 @@ void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
   if (is_remeshed) {
     limit_by_edges(m);
     limit_by_width(m);
+    limit_by_deviation(m);
     // From there, the lengths grow.
     std::vector<sizes::SizedPlace> places;
     for (const VertexHandle v : m.mesh.vertices())
@@ -186,6 +200,7 @@ void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
   }
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
   limit_count(m);
+  if (is_remeshed) limit_by_deviation(m);
 }
 
 }  // namespace ccdt::surface

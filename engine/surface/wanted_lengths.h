@@ -23,6 +23,6 @@ inline constexpr double most_deviation_of_improved = 0.055;
 /// \param plc    that the surface was cut from
 /// \param usual  the edge length wanted where the shape does not need less
 sizes::SizeField lengths_of_shape(const plc::Plc& plc, const OriginalSurface& surface, const FeatureCurves& features,
-                                  double usual);
+                                  double usual, double deviation);
 
 }  // namespace ccdt::surface

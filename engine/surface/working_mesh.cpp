@@ -66,8 +66,8 @@ void add_faces(WorkingMesh& m, const std::vector<char>& frozen) {
 
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
                               const ClosestPoint& closest, const sizes::SizeField& lengths,
-                              const sizes::SizeField& shape, const std::vector<char>& frozen) {
-  WorkingMesh m{original, features, closest, lengths, shape, {}, {}, {}, {}, {}};
+                              const sizes::SizeField& shape, double deviation, const std::vector<char>& frozen) {
+  WorkingMesh m{original, features, closest, lengths, shape, deviation, {}, {}, {}, {}, {}};
   const std::vector<std::uint32_t> knot_of = add_knots(m);
   add_links(m, knot_of);
   add_vertices(m, knot_of);
@@ -138,8 +138,8 @@ bool runs_along_surface(const WorkingMesh& m, VertexHandle a, VertexHandle b) {
 bool is_near_surface(const WorkingMesh& m, VertexHandle a, const Point3& q, double most) {
   if (m.is_flat(a)) return true;
   const Point3 p = m.point(a);
-  return m.closest.is_within(most * std::max(length(q - p), m.at(a).wanted), m.at(a).patch, 0.5 * (p + q),
-                             m.at(a).near);
+  const double within = std::min(m.deviation, most * std::max(length(q - p), m.at(a).wanted));
+  return m.closest.is_within(within, m.at(a).patch, 0.5 * (p + q), m.at(a).near);
 }
 
 plc::InputPlc to_plc(const WorkingMesh& m, const plc::InputPlc& input) {

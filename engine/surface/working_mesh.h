@@ -142,6 +142,7 @@ struct WorkingMesh {
   const ClosestPoint& closest;
   const sizes::SizeField& lengths;  ///< the given edge length, except where triangles have crossed
   const sizes::SizeField& shape;    ///< `lengths_of_shape`
+  double deviation;                 ///< of edges and triangles from the original surface; infinite: any
 
   HalfedgeMesh mesh;
   std::vector<Vertex> vertices;      ///< by the index in the mesh
@@ -185,7 +186,7 @@ struct WorkingMesh {
 /// \param frozen  by triangle of the original surface: must it stay as it is?
 WorkingMesh make_working_mesh(const OriginalSurface& original, const FeatureCurves& features,
                               const ClosestPoint& closest, const sizes::SizeField& lengths,
-                              const sizes::SizeField& shape, const std::vector<char>& frozen);
+                              const sizes::SizeField& shape, double deviation, const std::vector<char>& frozen);
 
 /// A new vertex of the halfedge mesh in a patch: at the given foot, or a copy of a knot, at its position.
 VertexHandle add_vertex(WorkingMesh& m, std::uint32_t patch, const Foot& foot, double wanted);

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "engine/base/portable_math.h"
 #include "engine/io/tet_mesh_files.h"
 #include "tools/tests/program.h"
 
@@ -30,6 +33,31 @@ class Requirements : public Program {
 
   /// The larger one of two numbers of a report.
   static double larger(const Json& one, const Json& other) { return std::max(one.get<double>(), other.get<double>()); }
+
+  /// A unit sphere of meridians and circles of latitude, as CAD programs draw it: with needles at the poles.
+  static std::string sphere_with_poles(int meridians, int circles) {
+    std::ostringstream off;
+    off.precision(17);
+    off << "OFF\n" << meridians * (circles - 1) + 2 << " " << 2 * meridians * (circles - 1) << " 0\n";
+    for (int c = 1; c < circles; ++c)
+      for (int m = 0; m < meridians; ++m) {
+        const double down = portable::pi * c / circles, around = 2 * portable::pi * m / meridians;
+        off << std::sin(down) * std::cos(around) << " " << std::sin(down) * std::sin(around) << " " << std::cos(down)
+            << "\n";
+      }
+    off << "0 0 1\n0 0 -1\n";
+    const auto at = [&](int c, int m) { return (c - 1) * meridians + m % meridians; };
+    const int top = meridians * (circles - 1);
+    for (int m = 0; m < meridians; ++m) {
+      off << "3 " << top << " " << at(1, m) << " " << at(1, m + 1) << "\n";
+      off << "3 " << top + 1 << " " << at(circles - 1, m + 1) << " " << at(circles - 1, m) << "\n";
+      for (int c = 1; c + 1 < circles; ++c) {
+        off << "3 " << at(c, m) << " " << at(c + 1, m) << " " << at(c + 1, m + 1) << "\n";
+        off << "3 " << at(c, m) << " " << at(c + 1, m + 1) << " " << at(c, m + 1) << "\n";
+      }
+    }
+    return off.str();
+  }
 
   /// Is there a tetrahedron around this point?
   bool has_center(const Json& at) const {
@@ -96,11 +124,28 @@ TEST_F(Requirements, ANewSurfaceHasItsDistanceFromTheOldOne) {
   EXPECT_LT(distance, 0.1);
   EXPECT_EQ(distance, larger(surface["distance_to_input"], surface["distance_from_input"]));
   EXPECT_FALSE(report_of("", 0).contains("surface"));
-  const std::string remesh = "--surface remesh --edge-length 0.5 --deviation ";
-  EXPECT_EQ(report_of(remesh + std::to_string(1.01 * distance), 0)["status"], "ok");
-  const Json missed = report_of(remesh + std::to_string(0.99 * distance), 1)["missed"];
-  EXPECT_EQ(missed[0]["name"], "deviation");
-  EXPECT_EQ(missed[0]["worst"][0]["at"], surface["farthest"]);
+}
+
+TEST_F(Requirements, ANewSurfaceStaysWithinTheDeviation) {
+  const std::string remesh = "--surface remesh --edge-length 0.5";
+  const double distance = report_of(remesh, 0)["surface"]["distance"];
+  for (const double share : {0.5, 0.05, 0.005}) {
+    const Json report = report_of(remesh + " --deviation " + std::to_string(share * distance), 0);
+    EXPECT_EQ(report["status"], "ok");
+    EXPECT_LT(report["surface"]["distance"], share * distance);
+  }
+}
+
+TEST_F(Requirements, ANearSurfaceWithoutNeedlesIsMadeOfOneWithThem) {
+  write("part.off", sphere_with_poles(64, 32));
+  const Json refined = report_of("--surface refine", 0), automatic = report_of("--surface auto", 0);
+  EXPECT_LT(refined["quality"]["dihedral_degrees"]["min"], 10);
+  EXPECT_GT(automatic["quality"]["dihedral_degrees"]["min"], 18);
+  EXPECT_LT(automatic["quality"]["r"]["max"], 3);
+  const double deviation = 1e-4 * 2 * std::sqrt(3.0);
+  EXPECT_LT(automatic["surface"]["distance"], deviation);
+  EXPECT_EQ(run("mesh part.off -o part.vtu --surface auto --edge-length 0.3").exit_code, 0);
+  EXPECT_EQ(run("verify part.off part.vtu --within " + std::to_string(deviation)).exit_code, 0);
 }
 
 TEST_F(Requirements, ChordsOfASphereHaveLessArea) {
