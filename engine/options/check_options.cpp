@@ -1,32 +1,21 @@
-#include "engine/steps/check_options.h"
+#include "engine/options/check_options.h"
 
 #include <algorithm>
 #include <string>
 
 #include "engine/base/check_arguments.h"
 #include "engine/base/errors.h"
+#include "engine/options/set_option.h"
 #include "engine/sizes/wanted_places.h"
 
-namespace ccdt::steps {
+namespace ccdt::options {
 namespace {
 
 void check_numbers(const MeshOptions& options) {
+  for (const MeshOption& option : mesh_options()) check_bounds(option, options);
   check_number("least core", options.least_core);
-  check_number("grid scale", options.grid_scale, 0.01, 1e4);
   check_number("number of thin tetrahedra", options.thin_tetrahedra, 1);
-  check_number("edge length", options.edge_length);
-  check_number("grading", options.grading);
   check_number("factor of the surface's edge lengths", options.surface_factor, 1e-6, 1e6);
-  check_number("number of tetrahedra", options.tetrahedra);
-  check_number("largest number of tetrahedra", options.most_tetrahedra);
-  check_number("flatness", options.flatness);
-  check_number("sphere factor", options.sphere_factor);
-  check_number("clearance", options.clearance);
-  check_number("ratio of radius and edge", options.radius_edge, 1);
-  check_number("target of dihedral angles", options.improve.target_dihedral, 0, 90);
-  check_number("target of r", options.improve.target_r, 1);
-  check_number("time of improvement", options.improve.time);
-  check_number("number of threads", options.threads, 0, 1024);
 }
 
 /// A program may turn any number into a value of an enumeration.
@@ -65,4 +54,4 @@ void check_options(const MeshOptions& options) {
                      {.file = options.local.name}, "give a grading, such as 0.5, the default");
 }
 
-}  // namespace ccdt::steps
+}  // namespace ccdt::options
