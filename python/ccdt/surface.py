@@ -37,8 +37,7 @@ class Surface:
         plc.segment_markers = arrays.markers(segment_markers, "markers of segments")
         plc.holes = arrays.points([] if holes is None else holes, "holes")
         for region in [] if regions is None else regions:
-            seed, number, *volume = region
-            plc.add_region((tuple(seed), int(number), *volume) if volume else (tuple(seed), int(number), 0.0))
+            plc.add_region(_region(*region))
         plc.names = {} if names is None else dict(names)
         if inside not in (None, "shells", "seeds"):
             raise InputError(f"inside cannot be {inside!r}", remedy="give 'shells' or 'seeds'")
@@ -121,7 +120,9 @@ def from_pyvista(mesh):
     """The surface of a ``pyvista.PolyData``, or the boundary of another data set of pyvista."""
     if not hasattr(mesh, "faces") or not hasattr(mesh, "verts"):
         mesh = mesh.extract_surface()
-    flat = np.asarray(mesh.faces)
+    flat = np.asarray(mesh.faces)  # of each polygon the number of its vertices, then these
+    if len(flat) % 4 == 0 and (flat[::4] == 3).all():
+        return Surface(mesh.points, flat.reshape(-1, 4)[:, 1:])
     faces, i = [], 0
     while i < len(flat):
         faces.append(flat[i + 1:i + 1 + flat[i]])
@@ -131,8 +132,10 @@ def from_pyvista(mesh):
 
 def from_meshio(mesh):
     """The polygons of a ``meshio.Mesh``."""
-    faces = [cell for block in mesh.cells if block.type in ("triangle", "quad", "polygon") for cell in block.data]
-    return Surface(mesh.points, faces)
+    blocks = [block for block in mesh.cells if block.type in ("triangle", "quad", "polygon")]
+    if len({block.type for block in blocks}) == 1 and blocks[0].type != "polygon":
+        return Surface(mesh.points, np.vstack([block.data for block in blocks]))
+    return Surface(mesh.points, [face for block in blocks for face in block.data])
 
 
 def as_surface(thing, faces=None, **parts):
@@ -158,9 +161,15 @@ def as_surface(thing, faces=None, **parts):
     raise TypeError(f"{type(thing).__name__} is no surface: give vertices and faces, a file, or a ccdt.Surface")
 
 
+def _region(seed, number, largest_volume=0.0):
+    return tuple(seed), number, largest_volume
+
+
 def _set_faces(plc, faces, markers):
     is_array = isinstance(faces, np.ndarray) and faces.ndim == 2
-    if is_array and faces.shape[1] == 3 or all(len(face) == 3 for face in faces):
+    if not is_array and not all(hasattr(face, "__len__") for face in faces):
+        raise InputError("the faces are not lists of vertices", remedy="give the vertices of each face")
+    if faces.shape[1] == 3 if is_array else all(len(face) == 3 for face in faces):
         plc.triangles = arrays.indices(faces, 3, "faces")
         plc.triangle_markers = markers
         return

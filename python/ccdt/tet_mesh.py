@@ -1,5 +1,7 @@
 """Tetrahedral meshes: what meshing makes."""
 
+import numpy as np
+
 from . import _engine, arrays
 
 
@@ -107,11 +109,11 @@ class Mesh:
         """A ``meshio.Mesh`` of tetrahedra, then triangles, with their numbers and markers as ``ccdt``."""
         import meshio
 
-        cells = [("tetra", self.tetrahedra)]
+        cells = [("tetra", self.tetrahedra.astype(np.int64))]  # its writers take no others
         data = [self.regions]
         if len(self.faces):
-            cells.append(("triangle", self.faces))
-            data.append(self.face_markers if len(self.face_markers) else self.faces[:, 0] * 0)
+            cells.append(("triangle", self.faces.astype(np.int64)))
+            data.append(self.face_markers if len(self.face_markers) else np.zeros(len(self.faces), np.int32))
         return meshio.Mesh(self.vertices, cells, cell_data={"ccdt": data})
 
     def to_pyvista(self):

@@ -68,6 +68,7 @@ def test_values_out_of_range_are_errors_of_the_input(cube, options):
     ([[0, 0, 0]] * 4, [[0, 1, 2]], {"markers": [2**40]}),
     ([[0, 0, 0]] * 4, [[0, 1, 2, 3], [0, 1]], {"markers": [1]}),
     ([], [], {}),
+    ([[0, 0, 0]], [0, 0, 0], {}),
 ])
 def test_arrays_that_are_no_surface_are_errors_of_the_input(vertices, faces, more):
     with pytest.raises(ccdt.InputError):
@@ -158,12 +159,14 @@ def test_remesh_and_improve(cube):
         ccdt.remesh(ccdt.Surface(*cube), 0)
 
 
-def test_meshio_gets_the_mesh(cube):
+def test_meshio_gets_the_mesh(cube, tmp_path):
     meshio = pytest.importorskip("meshio")
     mesh = ccdt.mesh(*cube, edge_length=0.5)
     foreign = mesh.to_meshio()
     assert isinstance(foreign, meshio.Mesh)
-    assert len(foreign.cells_dict["tetra"]) == len(mesh.tetrahedra)
+    for ending in ("vtu", "msh", "xdmf"):
+        foreign.write(tmp_path / f"foreign.{ending}")
+        assert len(meshio.read(tmp_path / f"foreign.{ending}").cells_dict["tetra"]) == len(mesh.tetrahedra)
     outline = meshio.Mesh(cube[0], [("triangle", cube[1])])
     assert ccdt.mesh(outline).volumes().sum() == pytest.approx(1)
 
