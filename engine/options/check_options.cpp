@@ -1,11 +1,9 @@
 #include "engine/options/check_options.h"
 
-#include <algorithm>
-#include <string>
-
 #include "engine/base/check_arguments.h"
 #include "engine/base/errors.h"
 #include "engine/options/set_option.h"
+#include "engine/sizes/interpolated_sizes.h"
 #include "engine/sizes/wanted_places.h"
 
 namespace ccdt::options {
@@ -28,26 +26,12 @@ void check_strategies(const MeshOptions& options) {
         improvement_of(options), options.improve.objective, options.improve.boundary, options.improve.steiner);
 }
 
-void check_background(const BackgroundSizes& background) {
-  const auto require = [&](bool holds, const std::string& what) {
-    if (!holds)
-      throw InputError(what, {.file = background.name},
-                       "give each vertex of the background a place and the edge length there");
-  };
-  require(background.sizes.size() == background.vertices.size(), "the background has not one size for each vertex");
-  require(std::ranges::all_of(background.vertices, is_finite), "a vertex of the background is not finite");
-  require(std::ranges::all_of(background.sizes, [](double size) { return size > 0 && size <= largest_argument; }),
-          "a size is not a positive number");
-  require(are_below(background.vertices.size(), background.tetrahedra),
-          "a tetrahedron of the background has a corner that is not a vertex");
-}
-
 }  // namespace
 
 void check_options(const MeshOptions& options) {
   check_numbers(options);
   check_strategies(options);
-  check_background(options.background);
+  sizes::check_background(options.background);
   sizes::check_local_sizes(options.local);
   if (!options.local.empty() && options.grading == 0)
     throw InputError("local edge lengths need a grading: without one, they would hold everywhere",

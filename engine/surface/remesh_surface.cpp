@@ -18,6 +18,7 @@
 #include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/sizes/interpolated_sizes.h"
 #include "engine/sizes/wanted_places.h"
 #include "engine/surface/working_mesh.h"
 
@@ -45,6 +46,7 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
     throw InputError("the edge length for remeshing is not a positive number", place,
                      "give the edge length of the new surface, in the units of the input");
   check_number("flatness", options.flatness);
+  if (options.background != nullptr) sizes::check_background(*options.background);
   check_number("angle of sharp edges", options.sharp_angle, least_sharp_angle, most_sharp_angle);
 }
 

@@ -9,8 +9,8 @@
 
 #include "tests/fuzz/targets/target.h"
 
-// Tries files, or all files of folders, one after the other: a fuzzer without libFuzzer. After --random, it tries that
-// many lists of random bytes, the same ones each time.
+// Tries files, or all files of folders, one after the other: a fuzzer without libFuzzer. With --random FIRST
+// COUNT, it tries lists of random bytes, the same ones each time.
 
 namespace {
 
@@ -29,8 +29,8 @@ std::vector<std::uint8_t> random_bytes(std::size_t number) {
   return bytes;
 }
 
-void try_random(std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
+void try_random(std::size_t first, std::size_t count) {
+  for (std::size_t i = first; i < first + count; ++i) {
     std::printf("random %zu\n", i);
     std::fflush(stdout);
     const std::vector<std::uint8_t> bytes = random_bytes(i);
@@ -41,8 +41,8 @@ void try_random(std::size_t count) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc == 3 && std::string_view(argv[1]) == "--random") {
-    try_random(std::stoul(argv[2]));
+  if (argc == 4 && std::string_view(argv[1]) == "--random") {
+    try_random(std::stoul(argv[2]), std::stoul(argv[3]));
     return 0;
   }
   std::size_t files = 0;
