@@ -70,7 +70,8 @@ ccdt_status guarded(const Run& run) {
 
 template <class... Pointers>
 void require(Pointers... pointers) {
-  if (((pointers == nullptr) || ...)) throw NullPointer();
+  const bool are_there = ((pointers != nullptr) && ...);
+  if (!are_there) throw NullPointer();
 }
 
 /// Runs something that makes a value for a new handle.
