@@ -60,7 +60,7 @@ TEST(OptionTable, EachOptionHasTheValueThatWasSetAndChangesNoOther) {
 
 TEST(OptionTable, NeedsOnlyOptionsAndValuesThatExist) {
   for (const options::MeshOption& option : options::mesh_options())
-    for (const baselines::Need& need : option.needs) {
+    for (const options::Need& need : option.needs) {
       const options::MeshOption* const other = options::find_mesh_option(need.option);
       ASSERT_NE(other, nullptr) << option.name;
       EXPECT_TRUE(std::ranges::count(values_of(*other), need.value)) << option.name << " needs " << need.value;

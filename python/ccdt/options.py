@@ -105,6 +105,8 @@ def _description(name):
         return f"{name}:\n{textwrap.indent(EXTRA[name], '    ')}\n"
     option = TABLE[name]
     what = _in_keywords(option["what"])
+    if name == "threads":
+        what += "; default: all cores"
     if name == "sizes":
         what += "; or (points, lengths), or (points, tetrahedra, lengths)"
     if name == "size_field":
