@@ -9,6 +9,7 @@
 #include "bench/run/environment.h"
 #include "bench/run/file_names.h"
 #include "bench/run/verify_run.h"
+#include "engine/io/output_folder.h"
 #include "engine/options/option_table.h"
 
 namespace ccdt::bench {
@@ -21,10 +22,7 @@ class Scratch {
     std::filesystem::remove_all(folder_);  // left by a run that was killed
     std::filesystem::create_directories(folder_);
   }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  ~Scratch() { io::remove_if_possible(folder_); }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
