@@ -40,6 +40,11 @@ def test_arrays_are_meshed(cube):
     assert mesh.tetrahedra.max() < len(mesh.vertices)
 
 
+def test_switches_are_true_or_false(cube):
+    checked, unchecked = (ccdt.mesh(*cube, edge_length=0.5, face_protection=on).counts for on in (True, False))
+    assert unchecked["front_tetrahedra"] > checked["front_tetrahedra"]
+
+
 def test_polygons_are_facets(cube):
     squares = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
     mesh = ccdt.mesh(cube[0], squares, markers=[1, 2, 3, 4, 5, 6], names={1: "inlet"}, edge_length=0.5)
