@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "baselines/process.h"
+#include "engine/io/output_folder.h"
 
 namespace ccdt::baselines {
 namespace {
@@ -119,8 +120,7 @@ TemporaryFolder::TemporaryFolder() {
 }
 
 TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+  io::remove_if_possible(path_);
 }
 
 }  // namespace ccdt::baselines

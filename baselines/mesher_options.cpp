@@ -4,8 +4,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "baselines/option_table.h"
 #include "engine/base/digits.h"
+#include "engine/options/option_table.h"
 
 namespace ccdt::baselines {
 namespace {
@@ -44,8 +44,8 @@ class Asked {
 
 bool matters(const OptionUse& use, const Asked& asked) {
   if (use.only_inside && asked.value("lattice") == value_none) return false;
-  const MeshOption* const option = find_mesh_option(use.name);
-  return option == nullptr || std::ranges::all_of(option->needs, [&](const Need& need) {
+  const options::MeshOption* const option = options::find_mesh_option(use.name);
+  return option == nullptr || std::ranges::all_of(option->needs, [&](const options::Need& need) {
            return (asked.value(std::string(need.option)) == need.value) == need.is;
          });
 }
@@ -53,16 +53,17 @@ bool matters(const OptionUse& use, const Asked& asked) {
 }  // namespace
 
 bool names_a_file(std::string_view option) {
-  const MeshOption* const known = find_mesh_option(option);
-  return known != nullptr && std::holds_alternative<FileKind>(known->kind);
+  const options::MeshOption* const known = options::find_mesh_option(option);
+  return known != nullptr && std::holds_alternative<options::FileKind>(known->kind);
 }
 
 const NamedOptions& usual_options() {
   static const NamedOptions all = [] {
     NamedOptions usual;
     MeshOptions defaults;
-    for (const MeshOption& option : mesh_options())
-      usual[std::string(option.name)] = option.usual ? *option.usual : text_of(recorded_value(option, defaults));
+    for (const options::MeshOption& option : options::mesh_options())
+      usual[std::string(option.name)] =
+          option.usual ? *option.usual : options::text_of(options::recorded_value(option, defaults));
     return usual;
   }();
   return all;
@@ -93,7 +94,7 @@ NamedOptions with_strategies(NamedOptions options) {
 
 std::vector<OptionUse> options_of_engine() {
   std::vector<OptionUse> all;
-  for (const MeshOption& option : mesh_options())
+  for (const options::MeshOption& option : options::mesh_options())
     all.push_back({.name = std::string(option.name), .only_inside = option.of_inside});
   return all;
 }
@@ -114,7 +115,7 @@ NamedOptions effective_options(const Mesher& mesher, const NamedOptions& options
   for (const auto& [name, value] : asked.options()) {
     const auto use = use_of(name);
     const bool is_used = use != mesher.options.end() && matters(*use, asked);
-    if (const MeshOption* const option = find_mesh_option(name)) {
+    if (const options::MeshOption* const option = options::find_mesh_option(name)) {
       const bool is_of_surface = (is_remeshed && option->of_remeshing) || (is_refined && option->of_refinement);
       const bool has_effect = is_used || is_of_surface || option->of_any_mesher;
       if (!has_effect || value == usual(name)) continue;

@@ -17,6 +17,7 @@
 #include "engine/improve/improve_mesh.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/boundary_faces.h"
+#include "engine/options/check_options.h"
 #include "engine/plc/plc.h"
 #include "engine/tets/cell_complex.h"
 
@@ -46,12 +47,6 @@ void check_tet_mesh(const mesh::TetMesh& mesh) {
     throw InputError("the mesh has an index out of range, a list that is too short, or a coordinate that is not finite",
                      {}, mesh_remedy);
   if (mesh.tetrahedra.empty()) throw InputError("the mesh has no tetrahedra", {}, "give a mesh of tetrahedra");
-}
-
-void check_targets(const improve::ImproveOptions& options) {
-  check_number("target of dihedral angles", options.target_dihedral, 0, 90);
-  check_number("target of r", options.target_r, 1);
-  check_number("time of improvement", options.time);
 }
 
 /// Puts the vertices on a grid as fine as their doubles, and turns all tetrahedra upward.
@@ -175,7 +170,6 @@ LargeVector<tets::Cell> cells_of(const mesh::TetMesh& mesh) {
 
 ImprovedMesh improve_on_threads(mesh::TetMesh mesh, const improve::ImproveOptions& options, const Progress& progress) {
   check_tet_mesh(mesh);
-  check_targets(options);
   if (!mesh.edges.empty()) check_edges(mesh);
   plc::Plc original;  // has what `mesh::to_world` needs
   original.grid = make_grid(mesh.vertices);
@@ -202,6 +196,10 @@ ImprovedMesh improve_on_threads(mesh::TetMesh mesh, const improve::ImproveOption
 
 ImprovedMesh improve_tet_mesh(mesh::TetMesh mesh, const improve::ImproveOptions& options, unsigned threads,
                               const Progress& progress) {
+  MeshOptions all;
+  all.improve = options;
+  all.threads = threads;
+  options::check_options(all);
   return with_threads(threads, [&] { return improve_on_threads(std::move(mesh), options, progress); });
 }
 

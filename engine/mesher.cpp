@@ -8,9 +8,9 @@
 #include "engine/folds/protect_facets.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/collect_tetrahedra.h"
+#include "engine/options/check_options.h"
 #include "engine/plc/check_input.h"
 #include "engine/plc/gather_parts.h"
-#include "engine/steps/check_options.h"
 #include "engine/steps/fill_domain.h"
 #include "engine/steps/improve_mesh.h"
 #include "engine/steps/make_plc.h"
@@ -92,7 +92,7 @@ unsigned number_of_threads(const MeshOptions& options) {
 MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Progress& progress) {
   return with_file_in_errors(input.name, [&] {
     plc::check_input(input);
-    steps::check_options(options);
+    options::check_options(options);
     return with_threads(options.threads, [&] {
       if (options.tetrahedra == 0) return mesh_on_threads(input, options, progress);
       return steps::reach_count(

@@ -5,8 +5,8 @@
 #include "engine/base/progress.h"
 #include "engine/base/stages.h"
 #include "engine/mesh/tet_mesh.h"
+#include "engine/options/mesh_options.h"
 #include "engine/plc/input.h"
-#include "engine/steps/mesh_options.h"
 
 namespace ccdt {
 

@@ -31,7 +31,7 @@ set(public_headers
   repair/repair_input.h
   sizes/background_sizes.h
   sizes/local_sizes.h
-  steps/mesh_options.h
+  options/mesh_options.h
   surface/options.h
   surface/remesh_surface.h
   tets/objective.h

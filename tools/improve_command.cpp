@@ -2,12 +2,12 @@
 #include <string>
 #include <utility>
 
-#include "baselines/option_table.h"
 #include "bench/run/numbers.h"
 #include "bench/run/quality.h"
 #include "engine/improver.h"
 #include "engine/io/files.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/options/option_table.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/limit_errors.h"
@@ -57,7 +57,7 @@ void add_improve_command(CLI::App& app, ExitCode& exit_code) {
   verb->add_option("--format", command->format, "format of the mesh, if not that of its extension")
       ->check(CLI::IsMember(io::tet_mesh_formats()));
   for (const char* name : {"improve", "objective", "target-dihedral", "target-r", "improve-time", "threads"})
-    add_mesh_option(*verb, *baselines::find_mesh_option(name), command->options);
+    add_mesh_option(*verb, *options::find_mesh_option(name), command->options);
   verb->footer(
       "Faces and edges that the mesh lists, its boundary, and faces between regions stay, with their vertices. Other\n"
       "vertices may move or go.\n\n"

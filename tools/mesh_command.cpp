@@ -10,13 +10,13 @@
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
-#include "baselines/option_table.h"
 #include "baselines/stop.h"
 #include "bench/run/run_record.h"
 #include "engine/base/errors.h"
 #include "engine/io/files.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/options/option_table.h"
 #include "reports/result_text.h"
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
@@ -169,7 +169,7 @@ void add_options(CLI::App& verb, MeshCommand& command) {
       ->capture_default_str();
   add_requirements(verb, command.required);
   add_choice(verb, "--strategies", command.strategies, "strategies that belong together; other options replace them");
-  for (const baselines::MeshOption& option : baselines::mesh_options()) add_mesh_option(verb, option, command.options);
+  for (const options::MeshOption& option : options::mesh_options()) add_mesh_option(verb, option, command.options);
   verb.get_option("--threads")->default_str("all cores; 1 for a file up to 100 kB with --lattice none");
 }
 

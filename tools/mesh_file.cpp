@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "baselines/mesher.h"
-#include "baselines/option_table.h"
 #include "baselines/size_field_file.h"
 #include "bench/run/fingerprint.h"
 #include "bench/run/numbers.h"
@@ -21,6 +20,7 @@
 #include "engine/io/plc_files.h"
 #include "engine/io/read_sizes.h"
 #include "engine/io/tet_mesh_files.h"
+#include "engine/options/option_table.h"
 #include "engine/plc/edge_length_bounds.h"
 #include "engine/repair/find_faults.h"
 #include "engine/repair/repair_input.h"
@@ -58,7 +58,7 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   const bool remesh = surface::makes_new_surface(command.options.surface);
   std::vector<std::string> notes;
   for (const auto& [name, value] : command.given) {
-    const baselines::MeshOption* const option = baselines::find_mesh_option(name);
+    const options::MeshOption* const option = options::find_mesh_option(name);
     if (option == nullptr || name == "surface" || option->of_any_mesher || baselines::names_a_file(name))
       continue;  // they have messages of their own
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);

@@ -32,7 +32,7 @@ std::string validator_name(const std::vector<std::string>& choices) {
   return name;
 }
 
-CLI::Validator within_bounds_of(const baselines::NumberKind& number) {
+CLI::Validator within_bounds_of(const options::NumberKind& number) {
   if (std::isfinite(number.most)) return number_between(number.least, number.most);
   return number.excludes_least ? positive_number() : non_negative_number();
 }
@@ -40,23 +40,23 @@ CLI::Validator within_bounds_of(const baselines::NumberKind& number) {
 /// Adds an option of a kind.
 struct OptionAdder {
   CLI::App& verb;
-  const baselines::MeshOption& option;
+  const options::MeshOption& option;
   MeshOptions& options;
   std::string name = "--" + std::string(option.name), what = std::string(option.what);
 
-  void operator()(const baselines::ChoiceKind& kind) const {
+  void operator()(const options::ChoiceKind& kind) const {
     add_choice(
         verb, name, kind.names, [set = kind.set, &options = options](const std::string& value) { set(options, value); },
         kind.get(options), what);
   }
-  void operator()(const baselines::NumberKind& kind) const {
+  void operator()(const options::NumberKind& kind) const {
     CLI::Option* const added = verb.add_option(name, kind.member(options), what)->check(within_bounds_of(kind));
     if (!option.usual) added->capture_default_str();
   }
-  void operator()(const baselines::CountKind& kind) const {
+  void operator()(const options::CountKind& kind) const {
     verb.add_option(name, kind.member(options), what)->check(whole_number(kind.least, kind.most));
   }
-  void operator()(const baselines::FileKind& kind) const { verb.add_option(name, kind.member(options), what); }
+  void operator()(const options::FileKind& kind) const { verb.add_option(name, kind.member(options), what); }
 };
 
 }  // namespace
@@ -124,7 +124,7 @@ CLI::Validator known_mesher() {
       "", validator_name(names));
 }
 
-void add_choice(CLI::App& verb, const std::string& option, const std::vector<baselines::ChoiceKind::Name>& names,
+void add_choice(CLI::App& verb, const std::string& option, const std::vector<options::ChoiceKind::Name>& names,
                 const std::function<void(const std::string&)>& set, std::string_view standard, std::string what) {
   std::vector<std::string> words;
   for (const auto& [name, meaning] : names) {
@@ -136,13 +136,13 @@ void add_choice(CLI::App& verb, const std::string& option, const std::vector<bas
       ->default_str(std::string(standard));
 }
 
-void add_mesh_option(CLI::App& verb, const baselines::MeshOption& option, MeshOptions& options) {
+void add_mesh_option(CLI::App& verb, const options::MeshOption& option, MeshOptions& options) {
   std::visit(OptionAdder{verb, option, options}, option.kind);
 }
 
 void add_threads(CLI::App& verb, unsigned& threads) {
-  const baselines::MeshOption& option = *baselines::find_mesh_option("threads");
-  const auto& bounds = std::get<baselines::CountKind>(option.kind);
+  const options::MeshOption& option = *options::find_mesh_option("threads");
+  const auto& bounds = std::get<options::CountKind>(option.kind);
   verb.add_option("--threads", threads, std::string(option.what))
       ->check(whole_number(bounds.least, bounds.most))
       ->default_str("all cores");

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "baselines/option_table.h"
 #include "engine/base/enum_names.h"
+#include "engine/options/option_table.h"
 
 namespace ccdt::tools {
 
@@ -35,13 +35,13 @@ CLI::Validator known_mesher();
 /// \param set       gets the name that was chosen
 /// \param standard  the default
 /// \param what      the option's meaning
-void add_choice(CLI::App& verb, const std::string& option, const std::vector<baselines::ChoiceKind::Name>& names,
+void add_choice(CLI::App& verb, const std::string& option, const std::vector<options::ChoiceKind::Name>& names,
                 const std::function<void(const std::string&)>& set, std::string_view standard, std::string what);
 
 /// The same for an enumeration; the default is its value.
 template <NamedEnum Enum>
 void add_choice(CLI::App& verb, const std::string& option, Enum& target, const std::string& what) {
-  std::vector<baselines::ChoiceKind::Name> names;
+  std::vector<options::ChoiceKind::Name> names;
   for (const NamedValue<Enum>& value : names_of(Enum{})) names.push_back({value.name, value.what});
   add_choice(
       verb, option, names, [&target](const std::string& name) { target = value_of<Enum>(name).value_or(target); },
@@ -49,7 +49,7 @@ void add_choice(CLI::App& verb, const std::string& option, Enum& target, const s
 }
 
 /// Adds an option of the table. \param options  get the value, and have the default
-void add_mesh_option(CLI::App& verb, const baselines::MeshOption& option, MeshOptions& options);
+void add_mesh_option(CLI::App& verb, const options::MeshOption& option, MeshOptions& options);
 
 /// Adds --threads. \param threads  gets their number; 0, which stands for all cores, is the default
 void add_threads(CLI::App& verb, unsigned& threads);

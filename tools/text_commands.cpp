@@ -1,10 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "baselines/option_table.h"
 #include "bench/run/json.h"
 #include "bench/run/run_record.h"
 #include "engine/io/files.h"
+#include "engine/options/option_table.h"
 #include "engine/version.h"
 #include "tools/commands.h"
 #include "tools/limit_errors.h"
@@ -32,22 +32,22 @@ void write_man_pages(const ProgramText& program, const std::filesystem::path& fo
 }
 
 /// The schema of the member of a report that holds the value of this option.
-bench::Json schema_of(const baselines::MeshOption& option) {
+bench::Json schema_of(const options::MeshOption& option) {
   bench::Json schema = bench::Json::object();
-  if (const auto* choice = std::get_if<baselines::ChoiceKind>(&option.kind); choice == nullptr)
-    schema["type"] = std::holds_alternative<baselines::FileKind>(option.kind) ? "string" : "number";
+  if (const auto* choice = std::get_if<options::ChoiceKind>(&option.kind); choice == nullptr)
+    schema["type"] = std::holds_alternative<options::FileKind>(option.kind) ? "string" : "number";
   else if (choice->names.front().name == "on")
     schema["type"] = "boolean";
   else
     for (const auto& name : choice->names) schema["enum"].push_back(name.name);
-  if (const auto* count = std::get_if<baselines::CountKind>(&option.kind)) schema["minimum"] = count->least;
+  if (const auto* count = std::get_if<options::CountKind>(&option.kind)) schema["minimum"] = count->least;
   if (!option.in_report.empty()) schema["description"] = option.in_report;
   return schema;
 }
 
 bench::Json schemas_of_options() {
   bench::Json schemas = bench::Json::object();
-  for (const baselines::MeshOption& option : baselines::mesh_options())
+  for (const options::MeshOption& option : options::mesh_options())
     schemas[bench::option_key(option.name)] = schema_of(option);
   return schemas;
 }

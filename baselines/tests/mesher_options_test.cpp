@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "baselines/known_meshers.h"
-#include "baselines/option_table.h"
+#include "engine/options/option_table.h"
 
 namespace ccdt {
 namespace {
@@ -36,8 +36,8 @@ Mesher remesher() {
 }
 
 /// Values that the option can have, as on the command line.
-std::vector<std::string> values_of(const baselines::MeshOption& option) {
-  const auto* choice = std::get_if<baselines::ChoiceKind>(&option.kind);
+std::vector<std::string> values_of(const options::MeshOption& option) {
+  const auto* choice = std::get_if<options::ChoiceKind>(&option.kind);
   if (choice == nullptr) return {"2", "3"};
   std::vector<std::string> names;
   for (const auto& name : choice->names) names.emplace_back(name.name);
@@ -45,13 +45,13 @@ std::vector<std::string> values_of(const baselines::MeshOption& option) {
 }
 
 TEST(OptionTable, EachOptionHasTheValueThatWasSetAndChangesNoOther) {
-  for (const baselines::MeshOption& option : baselines::mesh_options())
+  for (const options::MeshOption& option : options::mesh_options())
     for (const std::string& value : values_of(option)) {
       MeshOptions before, after;
       if (option.name == "lattice") before.improve.improvement = after.improve.improvement = Improvement::all;
       set_value(option, value, after);
-      EXPECT_EQ(baselines::text_of(recorded_value(option, after)), value) << option.name;
-      for (const baselines::MeshOption& other : baselines::mesh_options()) {
+      EXPECT_EQ(options::text_of(recorded_value(option, after)), value) << option.name;
+      for (const options::MeshOption& other : options::mesh_options()) {
         if (&other == &option) continue;
         EXPECT_EQ(recorded_value(other, after), recorded_value(other, before)) << option.name << ", " << other.name;
       }
@@ -59,9 +59,9 @@ TEST(OptionTable, EachOptionHasTheValueThatWasSetAndChangesNoOther) {
 }
 
 TEST(OptionTable, NeedsOnlyOptionsAndValuesThatExist) {
-  for (const baselines::MeshOption& option : baselines::mesh_options())
-    for (const baselines::Need& need : option.needs) {
-      const baselines::MeshOption* const other = baselines::find_mesh_option(need.option);
+  for (const options::MeshOption& option : options::mesh_options())
+    for (const options::Need& need : option.needs) {
+      const options::MeshOption* const other = options::find_mesh_option(need.option);
       ASSERT_NE(other, nullptr) << option.name;
       EXPECT_TRUE(std::ranges::count(values_of(*other), need.value)) << option.name << " needs " << need.value;
     }

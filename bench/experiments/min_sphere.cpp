@@ -6,6 +6,7 @@
 
 #include "bench/experiments/surfaces.h"
 #include "bench/run/quality.h"
+#include "engine/geometry/tetrahedron_shape.h"
 
 namespace ccdt::experiments {
 namespace {
@@ -93,7 +94,7 @@ SurfaceSlivers slivers_at_surface(const mesh::TetMesh& mesh) {
     if (on_surface == 0) continue;
     const std::array<Point3, 4> points = {mesh.vertices[corners[0]], mesh.vertices[corners[1]],
                                           mesh.vertices[corners[2]], mesh.vertices[corners[3]]};
-    const double dihedral = std::ranges::min(bench::dihedral_angles(points)), r = bench::shape_measure(points);
+    const double dihedral = std::ranges::min(dihedral_angles(points)), r = shape_measure(points);
     ++slivers.tetrahedra;
     slivers.below_5_degrees += dihedral < sliver;
     slivers.below_10_degrees += dihedral < nearly;

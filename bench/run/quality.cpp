@@ -12,11 +12,10 @@
 #include "engine/base/box.h"
 #include "engine/base/parallel.h"
 #include "engine/base/raw_vector.h"
+#include "engine/geometry/tetrahedron_shape.h"
 
 namespace ccdt::bench {
 namespace {
-
-constexpr double regular_factor = 8.485281374238570;  ///< 6 sqrt(2): makes the regular tetrahedron's r equal to 1
 
 /// Growing steps for r and the aspect ratio: nearly all tetrahedra are near 1, and the bad ones are spread over
 /// decades.
@@ -28,73 +27,6 @@ constexpr MeasureEdges radius_edge_edges = {0.6, 0.65, 0.7, 0.75, 0.8, 0.9, 1, 1
 
 constexpr int dihedral_step = 5;  ///< degrees
 constexpr std::size_t dihedral_bins = 180 / dihedral_step;
-
-/// What all measures of a tetrahedron are made of.
-struct Shape {
-  std::array<double, 6> squared_edges;  ///< 01, 02, 03, 12, 13, 23
-  std::array<Point3, 4> normals;        ///< of the faces opposite to each corner; their lengths are twice the areas
-  double six_volumes;                   ///< negative if the tetrahedron is inverted
-};
-
-Shape shape_of(const std::array<Point3, 4>& t) {
-  const Point3 a = t[1] - t[0], b = t[2] - t[0], c = t[3] - t[0], d = t[2] - t[1], e = t[3] - t[1], f = t[3] - t[2];
-  const Point3 base = cross(a, b);
-  return {{squared_length(a), squared_length(b), squared_length(c), squared_length(d), squared_length(e),
-           squared_length(f)},
-          {cross(e, d), cross(b, c), cross(c, a), base},
-          dot(base, c)};
-}
-
-double shape_measure_of(const Shape& shape) {
-  const auto& s = shape.squared_edges;
-  const double mean = (s[0] + s[1] + s[2] + s[3] + s[4] + s[5]) / 6;
-  const double v = std::abs(shape.six_volumes) / 6;
-  return v > 0 ? mean * std::sqrt(mean) / (regular_factor * v) : std::numeric_limits<double>::infinity();
-}
-
-double aspect_ratio_of(const Shape& shape) {
-  double twice_area = 0;
-  for (const Point3& normal : shape.normals) twice_area += length(normal);
-  const double inradius = std::abs(shape.six_volumes) / twice_area;
-  return inradius > 0 ? std::sqrt(std::ranges::max(shape.squared_edges) / 24) / inradius
-                      : std::numeric_limits<double>::infinity();
-}
-
-double radius_edge_ratio_of(const Shape& shape) {
-  const double v = std::abs(shape.six_volumes);
-  if (!(v > 0)) return std::numeric_limits<double>::infinity();
-  const auto& [edges, normals, six_volumes] = shape;
-  // From corner 0 with edges a, b and c to the center: (|a|^2 b x c + |b|^2 c x a + |c|^2 a x b) / (12 V).
-  const Point3 sum = edges[0] * normals[1] + edges[1] * normals[2] + edges[2] * normals[3];
-  return length(sum) / (2 * v) / std::sqrt(std::ranges::min(edges));
-}
-
-/// A number from 0 to 2 that grows with the angle of a direction from 0 to 180 degrees. Angles are compared and counted
-/// by it: arctangents of all of them would take longer than all other measures.
-double turn_of(double sine, double cosine) {
-  const double sum = sine + std::abs(cosine);
-  const bool is_in_range = sum > 0 && sum <= std::numeric_limits<double>::max();
-  if (!is_in_range) return 0;
-  return cosine >= 0 ? sine / sum : 2 - sine / sum;
-}
-
-double angle_of_turn(double turn) {
-  // The arctangent is accurate at flat and at sharp angles, where the arccosine loses half of the digits.
-  return degrees * std::atan2(std::min(turn, 2 - turn), 1 - turn);
-}
-
-/// The turns of the angles at the edges 01, 02, 03, 12, 13, 23.
-std::array<double, 6> dihedral_turns(const Shape& shape) {
-  constexpr std::array<std::array<std::size_t, 2>, 6> faces = {{{2, 3}, {1, 3}, {1, 2}, {0, 3}, {0, 2}, {0, 1}}};
-  std::array<double, 6> turns{};
-  const double v = std::abs(shape.six_volumes);
-  for (std::size_t e = 0; e < 6; ++e) {
-    const auto [i, j] = faces[e];
-    // The vector product of two normals is their common edge, times six volumes.
-    turns[e] = turn_of(std::sqrt(shape.squared_edges[e]) * v, -dot(shape.normals[i], shape.normals[j]));
-  }
-  return turns;
-}
 
 /// Counts turns in bins of equal angles.
 class DihedralBins {
@@ -163,7 +95,7 @@ struct DihedralTurns {
   double min = 2, max = 0;
   std::array<std::uint64_t, dihedral_bins> counts = {};
 
-  void add(const Shape& shape, const DihedralBins& bins) {
+  void add(const TetrahedronShape& shape, const DihedralBins& bins) {
     for (const double turn : dihedral_turns(shape)) {
       min = std::min(min, turn);
       max = std::max(max, turn);
@@ -185,24 +117,6 @@ Quality::Dihedral dihedral_of(std::span<const DihedralTurns> parts) {
 
 }  // namespace
 
-double shape_measure(const std::array<Point3, 4>& tetrahedron) {
-  return shape_measure_of(shape_of(tetrahedron));
-}
-
-double aspect_ratio(const std::array<Point3, 4>& tetrahedron) {
-  return aspect_ratio_of(shape_of(tetrahedron));
-}
-
-double radius_edge_ratio(const std::array<Point3, 4>& tetrahedron) {
-  return radius_edge_ratio_of(shape_of(tetrahedron));
-}
-
-std::array<double, 6> dihedral_angles(const std::array<Point3, 4>& tetrahedron) {
-  std::array<double, 6> angles = dihedral_turns(shape_of(tetrahedron));
-  for (double& angle : angles) angle = angle_of_turn(angle);
-  return angles;
-}
-
 Quality measure_quality(const mesh::TetMesh& mesh) {
   constexpr std::size_t chunk_length = 8192;
   const std::size_t size = mesh.tetrahedra.size();
@@ -217,11 +131,11 @@ Quality measure_quality(const mesh::TetMesh& mesh) {
     for (std::size_t i = begin; i < end; ++i) {
       std::array<Point3, 4> t;
       for (std::size_t k = 0; k < 4; ++k) t[k] = scale * mesh.vertices[mesh.tetrahedra[i][k]];
-      const Shape shape = shape_of(t);
+      const TetrahedronShape shape(t);
       volumes[i] = shape.six_volumes / 6;
-      r[i] = shape_measure_of(shape);
-      aspect[i] = aspect_ratio_of(shape);
-      radius_edge[i] = radius_edge_ratio_of(shape);
+      r[i] = shape_measure(shape);
+      aspect[i] = aspect_ratio(shape);
+      radius_edge[i] = radius_edge_ratio(shape);
       turns.add(shape, bins);
     }
     return turns;

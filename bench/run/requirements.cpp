@@ -9,6 +9,7 @@
 #include "engine/base/box.h"
 #include "engine/base/digits.h"
 #include "engine/base/parallel.h"
+#include "engine/geometry/tetrahedron_shape.h"
 
 namespace ccdt::bench {
 namespace {

@@ -6,10 +6,11 @@
 
 #include "baselines/mesher.h"
 #include "baselines/mesher_options.h"
-#include "baselines/option_table.h"
 #include "bench/run/environment.h"
 #include "bench/run/file_names.h"
 #include "bench/run/verify_run.h"
+#include "engine/io/output_folder.h"
+#include "engine/options/option_table.h"
 
 namespace ccdt::bench {
 namespace {
@@ -21,10 +22,7 @@ class Scratch {
     std::filesystem::remove_all(folder_);  // left by a run that was killed
     std::filesystem::create_directories(folder_);
   }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+  ~Scratch() { io::remove_if_possible(folder_); }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
@@ -55,8 +53,7 @@ RunRecord record_without_report(const RunPlace& place, const Case& asked) {
   MeshOptions chosen;
   chosen.threads = 1;
   for (const auto& [name, value] : baselines::with_strategies(options))
-    if (const baselines::MeshOption* const option = baselines::find_mesh_option(name))
-      set_value(*option, value, chosen);
+    if (const options::MeshOption* const option = options::find_mesh_option(name)) set_value(*option, value, chosen);
   return start_record(baselines::mesher(asked.mesher), unread, chosen);
 }
 

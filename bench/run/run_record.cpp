@@ -274,7 +274,7 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
   record.input.facets = input.facet_count();
   record.input.segments = input.segments.size();
   MeshOptions own = options;
-  for (const baselines::MeshOption& option : baselines::mesh_options()) {
+  for (const options::MeshOption& option : options::mesh_options()) {
     if ((option.name == "sharp-angle" || option.name == "deviation") && !surface::makes_new_surface(options.surface))
       continue;
     record.options.emplace_back(option_key(option.name), recorded_value(option, own));

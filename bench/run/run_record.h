@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "baselines/mesher.h"
-#include "baselines/option_table.h"
 #include "baselines/process.h"
 #include "bench/run/environment.h"
 #include "bench/run/json.h"
 #include "bench/run/quality.h"
 #include "bench/run/requirements.h"
+#include "engine/options/option_table.h"
 
 namespace ccdt::bench {
 
@@ -35,7 +35,7 @@ struct RepairedInput {
 
 /// One run of one mesher on one input, written as JSON of schema `ccdt.run/1`.
 struct RunRecord {
-  using Option = baselines::OptionValue;
+  using Option = options::OptionValue;
 
   struct MesherName {
     std::string name, version, revision;

@@ -8,6 +8,7 @@
 #include "engine/base/hash_table.h"
 #include "engine/base/parallel.h"
 #include "engine/base/simplex_map.h"
+#include "engine/geometry/tetrahedron_shape.h"
 
 namespace ccdt::bench {
 namespace {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bench/run/surface_limit.h"
+#include "engine/geometry/tetrahedron_shape.h"
 
 namespace ccdt {
 namespace {
@@ -24,14 +25,14 @@ mesh::TetMesh mesh_of(const std::array<Point3, 4>& tetrahedron) {
 }
 
 TEST(Quality, RegularTetrahedronHasMeasureOneAndItsDihedralAngle) {
-  EXPECT_NEAR(bench::shape_measure(regular), 1, 1e-14);
-  for (const double angle : bench::dihedral_angles(regular)) EXPECT_NEAR(angle, 70.528779365509308, 1e-12);
+  EXPECT_NEAR(shape_measure(regular), 1, 1e-14);
+  for (const double angle : dihedral_angles(regular)) EXPECT_NEAR(angle, 70.528779365509308, 1e-12);
 }
 
 TEST(Quality, CornerOfACubeHasThePapersMeasure) {
   // Squared edges 1, 1, 1, 2, 2, 2 and volume 1/6: 1.5^1.5 * 6 / 8.48528.
-  EXPECT_NEAR(bench::shape_measure(corner), 1.299038, 1e-6);
-  const auto angles = bench::dihedral_angles(corner);
+  EXPECT_NEAR(shape_measure(corner), 1.299038, 1e-6);
+  const auto angles = dihedral_angles(corner);
   EXPECT_NEAR(angles[0], 90, 1e-12);
   EXPECT_NEAR(angles[5], std::acos(1 / std::sqrt(3.0)) * 57.295779513082323, 1e-12);
 }
@@ -66,45 +67,45 @@ const std::array<Point3, 4> uneven = {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4
 
 TEST(Quality, EachEdgeCountsOnce) {
   // Squared edges 4, 9, 16, 13, 20, 25, volume 4.
-  EXPECT_NEAR(bench::shape_measure(uneven), std::pow(87 / 6.0, 1.5) / (6 * std::sqrt(2.0) * 4), 1e-13);
+  EXPECT_NEAR(shape_measure(uneven), std::pow(87 / 6.0, 1.5) / (6 * std::sqrt(2.0) * 4), 1e-13);
   // The circumscribed sphere is that of the box.
-  EXPECT_NEAR(bench::radius_edge_ratio(uneven), std::sqrt(29.0) / 2 / 2, 1e-13);
+  EXPECT_NEAR(radius_edge_ratio(uneven), std::sqrt(29.0) / 2 / 2, 1e-13);
   std::array<Point3, 4> corners = uneven;
   std::ranges::sort(corners, {}, [](const Point3& p) { return std::array{p.x, p.y, p.z}; });
   do {
-    EXPECT_NEAR(bench::shape_measure(corners), bench::shape_measure(uneven), 1e-13);
-    EXPECT_NEAR(bench::radius_edge_ratio(corners), bench::radius_edge_ratio(uneven), 1e-13);
-    EXPECT_NEAR(bench::aspect_ratio(corners), bench::aspect_ratio(uneven), 1e-13);
+    EXPECT_NEAR(shape_measure(corners), shape_measure(uneven), 1e-13);
+    EXPECT_NEAR(radius_edge_ratio(corners), radius_edge_ratio(uneven), 1e-13);
+    EXPECT_NEAR(aspect_ratio(corners), aspect_ratio(uneven), 1e-13);
   } while (std::ranges::next_permutation(corners, {}, [](const Point3& p) { return std::array{p.x, p.y, p.z}; }).found);
 }
 
 TEST(Quality, FlatTetrahedronIsInfinitelyBad) {
-  for (const auto measure : {bench::shape_measure, bench::aspect_ratio, bench::radius_edge_ratio})
-    EXPECT_TRUE(std::isinf(measure({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}})));
+  const std::array<Point3, 4> flat = {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}};
+  for (const auto measure : {shape_measure, aspect_ratio, radius_edge_ratio}) EXPECT_TRUE(std::isinf(measure(flat)));
 }
 
 TEST(Quality, AspectRatioIsThatOfVtk) {
-  EXPECT_NEAR(bench::aspect_ratio(regular), 1, 1e-14);
+  EXPECT_NEAR(aspect_ratio(regular), 1, 1e-14);
   // Longest edge sqrt(2); the inscribed sphere's radius is 3 V / area = 1 / (3 + sqrt(3)).
-  EXPECT_NEAR(bench::aspect_ratio(corner), std::sqrt(2.0) * (3 + std::sqrt(3.0)) / (2 * std::sqrt(6.0)), 1e-14);
+  EXPECT_NEAR(aspect_ratio(corner), std::sqrt(2.0) * (3 + std::sqrt(3.0)) / (2 * std::sqrt(6.0)), 1e-14);
 }
 
 TEST(Quality, RadiusEdgeRatioIsThatOfTetGen) {
-  EXPECT_NEAR(bench::radius_edge_ratio(regular), std::sqrt(6.0) / 4, 1e-14);
-  EXPECT_NEAR(bench::radius_edge_ratio(corner), std::sqrt(3.0) / 2, 1e-14);  // of the cube around it
+  EXPECT_NEAR(radius_edge_ratio(regular), std::sqrt(6.0) / 4, 1e-14);
+  EXPECT_NEAR(radius_edge_ratio(corner), std::sqrt(3.0) / 2, 1e-14);  // of the cube around it
 }
 
 TEST(Quality, RadiusEdgeRatioDoesNotSeeASliverButTheOthersDo) {
   const std::array<Point3, 4> sliver = {{{1, 0, 1e-3}, {-1, 0, 1e-3}, {0, 1, -1e-3}, {0, -1, -1e-3}}};
-  EXPECT_LT(bench::radius_edge_ratio(sliver), 0.8);
-  EXPECT_GT(bench::aspect_ratio(sliver), 100);
-  EXPECT_GT(bench::shape_measure(sliver), 100);
+  EXPECT_LT(radius_edge_ratio(sliver), 0.8);
+  EXPECT_GT(aspect_ratio(sliver), 100);
+  EXPECT_GT(shape_measure(sliver), 100);
 }
 
 TEST(Quality, SizeAndPlaceDoNotMatter) {
   std::array<Point3, 4> moved = corner;
   for (Point3& p : moved) p = 1e-3 * p + Point3{5, 6, 7};
-  for (const auto measure : {bench::shape_measure, bench::aspect_ratio, bench::radius_edge_ratio})
+  for (const auto measure : {shape_measure, aspect_ratio, radius_edge_ratio})
     EXPECT_NEAR(measure(moved), measure(corner), 1e-9);
 }
 
@@ -135,7 +136,7 @@ TEST(Quality, AnglesAreCountedInTheBinsOfTheirDegrees) {
       p = {coordinate(random), coordinate(random), coordinate(random) * (i % 8 == 0 ? 1 : 0.05)};
     mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
     mesh.tetrahedra.push_back({i, i + 1, i + 2, i + 3});
-    for (const double angle : bench::dihedral_angles(corners)) {
+    for (const double angle : dihedral_angles(corners)) {
       ++counts[static_cast<std::size_t>(angle / 5)];
       least = std::min(least, angle), most = std::max(most, angle);
     }
@@ -150,9 +151,9 @@ TEST(Quality, AnglesAreCountedInTheBinsOfTheirDegrees) {
 TEST(Quality, OfAMeshSummarizesItsTetrahedra) {
   const bench::Quality quality = bench::measure_quality(mesh_of(corner));
   EXPECT_EQ(quality.r.min, quality.r.max);
-  EXPECT_NEAR(quality.r.mean, bench::shape_measure(corner), 1e-15);
-  EXPECT_EQ(quality.aspect_ratio.max, bench::aspect_ratio(corner));
-  EXPECT_EQ(quality.radius_edge_ratio.median, bench::radius_edge_ratio(corner));
+  EXPECT_NEAR(quality.r.mean, shape_measure(corner), 1e-15);
+  EXPECT_EQ(quality.aspect_ratio.max, aspect_ratio(corner));
+  EXPECT_EQ(quality.radius_edge_ratio.median, radius_edge_ratio(corner));
   EXPECT_NEAR(quality.dihedral_degrees.max, 90, 1e-12);
   EXPECT_NEAR(quality.volume, 1.0 / 6, 1e-15);
 }
@@ -175,8 +176,8 @@ TEST(Quality, QuantilesAreThoseOfTheSortedValues) {
   double widest = 0;
   for (const auto& t : mesh.tetrahedra) {
     const std::array corners = {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], mesh.vertices[t[3]]};
-    r.push_back(bench::shape_measure(corners));
-    widest = std::max(widest, std::ranges::max(bench::dihedral_angles(corners)));
+    r.push_back(shape_measure(corners));
+    widest = std::max(widest, std::ranges::max(dihedral_angles(corners)));
   }
   std::ranges::sort(r);
   const bench::Quality quality = bench::measure_quality(mesh);

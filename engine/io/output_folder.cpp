@@ -1,5 +1,6 @@
 #include "engine/io/output_folder.h"
 
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -16,6 +17,15 @@ namespace {
 
 }  // namespace
 
+void remove_if_possible(const std::filesystem::path& path) noexcept {
+  try {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  } catch (const std::bad_alloc&) {
+    // The files stay. What was to be reported is on its way already.
+  }
+}
+
 OutputFolder::OutputFolder(std::filesystem::path target)
     : target_(std::move(target)), temporary_(temporary_beside(target_)) {
   unfinished_.emplace_back(temporary_);
@@ -25,8 +35,7 @@ OutputFolder::OutputFolder(std::filesystem::path target)
 }
 
 OutputFolder::~OutputFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(temporary_, ignored);
+  remove_if_possible(temporary_);
 }
 
 std::filesystem::path OutputFolder::file(const char* name) {
@@ -45,8 +54,7 @@ void OutputFolder::commit() {
     if (replaces) rename(old, target_);
     throw;
   }
-  std::error_code ignored;
-  std::filesystem::remove_all(old, ignored);
+  remove_if_possible(old);
 }
 
 void OutputFolder::rename(const std::filesystem::path& from, const std::filesystem::path& to) const {

@@ -7,6 +7,10 @@
 
 namespace ccdt::io {
 
+/// Removes a file, or a folder with all in it. It stays if the system forbids it, or if there is no memory left. For
+/// destructors, which must not throw: `std::filesystem::remove_all` does, even if it returns an error code.
+void remove_if_possible(const std::filesystem::path& path) noexcept;
+
 /// A folder of files that appears completely or not at all, like `OutputFile`: it is filled under a temporary name
 /// beside the target, and `commit` renames it.
 class OutputFolder {

@@ -5,7 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <ranges>
+#include <string>
 #include <vector>
+
+#include "engine/base/check_arguments.h"
+#include "engine/base/errors.h"
 
 namespace ccdt::sizes {
 namespace {
@@ -94,6 +98,20 @@ double least_value(const std::array<Point3, 4>& corners, const std::array<double
     }
   }
   return least;
+}
+
+void check_background(const BackgroundSizes& background) {
+  const auto require = [&](bool holds, const std::string& what) {
+    if (!holds)
+      throw InputError(what, {.file = background.name},
+                       "give each vertex of the background a place and the edge length there");
+  };
+  require(background.sizes.size() == background.vertices.size(), "the background has not one size for each vertex");
+  require(std::ranges::all_of(background.vertices, is_finite), "a vertex of the background is not finite");
+  require(std::ranges::all_of(background.sizes, [](double size) { return size > 0 && size <= largest_argument; }),
+          "a size is not a positive number");
+  require(are_below(background.vertices.size(), background.tetrahedra),
+          "a tetrahedron of the background has a corner that is not a vertex");
 }
 
 InterpolatedSizes::InterpolatedSizes(const BackgroundSizes& background) : background_(&background) {

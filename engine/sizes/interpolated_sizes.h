@@ -9,6 +9,9 @@
 
 namespace ccdt::sizes {
 
+/// \throw InputError  a vertex is not finite, has no size or one that is not positive, or a corner is no vertex
+void check_background(const BackgroundSizes& background);
+
 /// Sizes that are given at the vertices of a tetrahedral mesh. Within a tetrahedron they are linear; outside of all
 /// tetrahedra, a point has the size of the nearest vertex.
 class InterpolatedSizes {

@@ -27,6 +27,9 @@ struct LocalSize {
 /// Fills in the wanted edge length at each of some points; infinity where any length will do.
 using SizeFunction = std::function<void(std::span<const Point3> points, std::span<double> lengths)>;
 
+/// Bounds of the options below.
+inline constexpr double most_curvature_angle = 180, most_elements_through = 1000;
+
 /// Where edges should be shorter than `MeshOptions::edge_length`. The least of all lengths counts.
 struct LocalSizes {
   std::string name = {};  ///< path of the file they come from; empty: none

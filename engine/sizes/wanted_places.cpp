@@ -222,8 +222,8 @@ void add_thin_parts(const plc::Plc& plc, double elements, double usual, std::vec
 
 void check_local_sizes(const LocalSizes& sizes) {
   const Place place{.file = sizes.name};
-  check_number("angle of curvature", sizes.curvature_angle, 0, 180);
-  check_number("number of elements through thin parts", sizes.elements_through, 0, 1000);
+  check_number("angle of curvature", sizes.curvature_angle, 0, most_curvature_angle);
+  check_number("number of elements through thin parts", sizes.elements_through, 0, most_elements_through);
   for (const LocalSize& size : sizes.sizes) {
     check_number("local edge length", size.edge_length);
     check_number("largest volume", size.volume);

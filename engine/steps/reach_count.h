@@ -5,7 +5,7 @@
 #include <string>
 
 #include "engine/base/errors.h"
-#include "engine/steps/mesh_options.h"
+#include "engine/options/mesh_options.h"
 
 namespace ccdt::steps {
 

@@ -2,8 +2,8 @@
 
 #include "engine/base/progress.h"
 #include "engine/base/stage_scope.h"
+#include "engine/options/mesh_options.h"
 #include "engine/sizes/wanted_sizes.h"
-#include "engine/steps/mesh_options.h"
 
 namespace ccdt::steps {
 

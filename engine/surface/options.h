@@ -38,7 +38,7 @@ inline constexpr double usual_deviation = 1e-4;
 
 /// At 30 degrees, a circle of twelve or more edges counts as round (CAD programs draw none coarser), and a 45-degree
 /// chamfer is still kept.
-inline constexpr double usual_sharp_angle = 30;
+inline constexpr double usual_sharp_angle = 30, least_sharp_angle = 1, most_sharp_angle = 179;
 
 struct RemeshOptions {
   double edge_length = 0;  ///< target, in the units of the input; must be positive

@@ -18,6 +18,7 @@
 #include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/sizes/interpolated_sizes.h"
 #include "engine/sizes/wanted_places.h"
 #include "engine/surface/surface_change.h"
 #include "engine/surface/working_mesh.h"
@@ -50,10 +51,19 @@ void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
                      "give the edge length of the new surface, in the units of the input");
   check_number("flatness", options.flatness);
   check_number("deviation", options.deviation);
-  const bool is_angle = options.sharp_angle > 0 && options.sharp_angle < 180;
-  if (!is_angle)
-    throw InputError("the angle of sharp edges is not between 0 and 180 degrees", place,
-                     "give an angle in between, such as 30");
+  if (options.background != nullptr) sizes::check_background(*options.background);
+  check_number("angle of sharp edges", options.sharp_angle, least_sharp_angle, most_sharp_angle);
+}
+
+/// \throw LimitError  triangles of this edge length would be too many to be counted
+void check_count(const plc::InputPlc& input, const OriginalSurface& original, double edge_length) {
+  constexpr double most = 1e9, area_of_unit = 0.433;
+  double area = 0;
+  for (const auto& [a, b, c] : original.triangles)
+    area += 0.5 * length(area_vector({original.points[a], original.points[b], original.points[c]}));
+  if (area > most * area_of_unit * edge_length * edge_length)
+    throw LimitError("the new surface would have more than 1,000,000,000 triangles", {.file = input.name},
+                     "give a larger edge length");
 }
 
 /// What must stay the same: the regions, in any order.
@@ -290,6 +300,7 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
   plc::Plc plc = plc::build_plc(input, {options.flatness}, progress);
   if (options.local != nullptr) sizes::set_volumes(*options.local, plc);
   const OriginalSurface original = cut_surface(input, plc, options);
+  check_count(input, original, options.edge_length);
   const FeatureCurves features = chain_features(original, options.sharp_angle);
   const ClosestPoint closest(original);
   const double deviation = options.deviation > 0 ? options.deviation : HUGE_VAL;

@@ -25,6 +25,7 @@ namespace ccdt::surface {
 ///
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is not a valid PLC, or an option is out of range
+/// \throw LimitError  the new surface would have too many triangles
 /// \throw MeshError   no valid surface was found at this edge length; with the place
 plc::InputPlc remesh_surface(const plc::InputPlc& input, const RemeshOptions& options, const Progress& progress = {});
 

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/run/quality.h"
+#include "engine/geometry/tetrahedron_shape.h"
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "engine/tests/shared/mesh_test_solids.h"
@@ -167,8 +168,8 @@ TEST_F(Program, ImproveMakesTheMeshOfAnotherMesherBetterAndKeepsItRight) {
     double worst = 0;
     const mesh::TetMesh read = io::read_tet_mesh(work() / name);
     for (const auto& [a, b, c, d] : read.tetrahedra)
-      worst = std::max(worst,
-                       bench::shape_measure({read.vertices[a], read.vertices[b], read.vertices[c], read.vertices[d]}));
+      worst = std::max(
+          worst, shape_measure(std::array{read.vertices[a], read.vertices[b], read.vertices[c], read.vertices[d]}));
     return worst;
   };
   for (const char* mesher : {"tetgen", "cgal-mesh3"})

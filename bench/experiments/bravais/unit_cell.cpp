@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bench/run/quality.h"
+#include "engine/geometry/tetrahedron_shape.h"
 
 namespace ccdt::bravais {
 namespace {
@@ -84,11 +85,11 @@ UnitCellQuality quality_of(const UnitCell& unit_cell) {
     quality.mean_r_by_volume += r * static_cast<double>(six_volumes_of(cell));
     volume += six_volumes_of(cell);
     const std::array<Point3, 4> corners = coordinates_of(basis, cell);
-    const std::array<double, 6> angles = bench::dihedral_angles(corners);
+    const std::array<double, 6> angles = dihedral_angles(corners);
     quality.smallest_dihedral = std::min(quality.smallest_dihedral, std::ranges::min(angles));
     quality.largest_dihedral = std::max(quality.largest_dihedral, std::ranges::max(angles));
-    quality.worst_aspect = std::max(quality.worst_aspect, bench::aspect_ratio(corners));
-    quality.worst_radius_edge = std::max(quality.worst_radius_edge, bench::radius_edge_ratio(corners));
+    quality.worst_aspect = std::max(quality.worst_aspect, aspect_ratio(corners));
+    quality.worst_radius_edge = std::max(quality.worst_radius_edge, radius_edge_ratio(corners));
   }
   quality.mean_r_by_volume /= static_cast<double>(volume);
   return quality;

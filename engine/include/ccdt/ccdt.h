@@ -2,6 +2,11 @@
 
 /// \file
 /// All that the library offers: reading, checking, repairing, meshing, improving and writing.
+///
+/// All functions check their arguments: what no reader would make, such as an index out of range, is an `InputError`.
+/// All functions may be called from several threads at once, with the same arguments too, as long as no two of them
+/// write the same file. Those that work on several threads themselves call `Progress` from the calling thread, one call
+/// at a time, and a `SizeFunction` from any thread, several at once.
 
 #include "engine/base/errors.h"
 #include "engine/improver.h"

@@ -65,6 +65,18 @@ TEST(Arguments, AnOptionOutOfRangeIsAnError) {
   EXPECT_THROW(repair_input(input, {.seconds = std::nan("")}), InputError);
 }
 
+TEST(Arguments, TooManyTrianglesAreALimit) {
+  for (const double length : {1e-6, 1e-300, std::numeric_limits<double>::denorm_min()})
+    EXPECT_THROW(remesh_surface(tetrahedron(), {.edge_length = length}), LimitError);
+}
+
+TEST(Arguments, TheCommandLineAndTheLibraryHaveTheSameBounds) {
+  MeshOptions options;
+  options.improve.target_dihedral = 61;
+  EXPECT_THROW(mesh_plc(tetrahedron(), options), InputError);
+  EXPECT_THROW(improve_tet_mesh(mesh_plc(tetrahedron()).mesh, options.improve), InputError);
+}
+
 TEST(Arguments, ABackgroundNeedsASizeForEachVertex) {
   const auto expect_refused = [](const BackgroundSizes& background) {
     MeshOptions options;

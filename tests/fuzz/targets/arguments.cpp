@@ -7,7 +7,7 @@
 #include "tests/fuzz/targets/temporary_folder.h"
 
 // Calls every public function with arguments that no reader would make: numbers out of range, lists that are too short,
-// lengths that are negative or NaN. It must return, or throw an error of ours.
+// lengths that are negative or NaN. It must return something valid, or throw an error of ours.
 
 namespace ccdt::fuzz {
 namespace {
@@ -102,6 +102,30 @@ BackgroundSizes sizes_of(Bytes& bytes) {
   return sizes;
 }
 
+LocalSize local_size_of(Bytes& bytes) {
+  LocalSize size;
+  size.edge_length = number(bytes);
+  change(bytes, size.volume);
+  change(bytes, size.within);
+  const auto attribute = [&] { return static_cast<int>(bytes.below(4)); };
+  for (std::vector<int>* list : {&size.markers, &size.segments, &size.regions}) *list = several(bytes, 1, attribute);
+  size.boxes = several(bytes, 1, [&] { return Box{point(bytes), point(bytes)}; });
+  size.balls = several(bytes, 1, [&] { return Ball{point(bytes), number(bytes)}; });
+  return size;
+}
+
+LocalSizes local_sizes_of(Bytes& bytes) {
+  LocalSizes local;
+  local.sizes = several(bytes, 2, [&] { return local_size_of(bytes); });
+  change(bytes, local.curvature_angle);
+  change(bytes, local.elements_through);
+  if (bytes.flag())
+    local.function = [length = number(bytes)](std::span<const Point3>, std::span<double> lengths) {
+      std::ranges::fill(lengths, length);
+    };
+  return local;
+}
+
 MeshOptions options_of(Bytes& bytes) {
   MeshOptions options;
   options.face_protection = bytes.flag();
@@ -125,6 +149,10 @@ MeshOptions options_of(Bytes& bytes) {
   for (double* option : {&options.improve.target_dihedral, &options.improve.target_r, &options.improve.time})
     change(bytes, *option);
   if (bytes.flag()) options.background = sizes_of(bytes);
+  if (bytes.flag()) options.local = local_sizes_of(bytes);
+  change(bytes, options.surface_factor);
+  change(bytes, options.tetrahedra);
+  change(bytes, options.most_tetrahedra);
   return options;
 }
 
@@ -152,9 +180,47 @@ void write_mesh_somewhere(Bytes& bytes) {
   write_tet_mesh(mesh_of(bytes), temporary_folder().path() / (std::string("mesh") + ending));
 }
 
+/// All indices are in range, and all lists are complete.
+void require_whole(const TetMesh& mesh) {
+  const auto are_in_range = [&](const auto& elements) {
+    return std::ranges::all_of(elements, [&](const auto& corners) {
+      return std::ranges::all_of(corners, [&](std::uint32_t v) { return v < mesh.vertices.size(); });
+    });
+  };
+  require(are_in_range(mesh.tetrahedra) && are_in_range(mesh.faces) && are_in_range(mesh.edges),
+          "a corner is no vertex");
+  require(mesh.regions.size() == mesh.tetrahedra.size() && mesh.edge_markers.size() == mesh.edges.size() &&
+              (mesh.face_markers.empty() || mesh.face_markers.size() == mesh.faces.size()),
+          "a list is not complete");
+  require(std::ranges::all_of(mesh.vertices, is_finite), "a vertex is not finite");
+}
+
+void mesh_anything(Bytes& bytes) {
+  const MeshOptions options = options_of(bytes);
+  number_of_threads(options), improvement_of(options);
+  const InputPlc input = input_of(bytes);
+  require_whole(mesh_plc(input, options, limited_to(2)).mesh);
+  if (options.surface == SurfaceRule::keep) require_right_mesh(input, options, 2);
+}
+
+void improve_anything(Bytes& bytes) {
+  const MeshOptions options = options_of(bytes);
+  TetMesh mesh = bytes.flag() ? mesh_plc(input_of(bytes), {}, limited_to(2)).mesh : mesh_of(bytes);
+  if (bytes.flag()) mesh.regions = several(bytes, 4, [&] { return static_cast<int>(bytes.next()); });
+  const bool has_regions = !mesh.regions.empty(), has_edge_markers = !mesh.edge_markers.empty();
+  TetMesh better = improve_tet_mesh(std::move(mesh), options.improve, options.threads, limited_to(2)).mesh;
+  if (!has_regions) better.regions.resize(better.tetrahedra.size());
+  if (!has_edge_markers) better.edge_markers.resize(better.edges.size());
+  require_whole(better);
+}
+
 void remesh(Bytes& bytes) {
   RemeshOptions options{.edge_length = 0.5};
   for (double* option : {&options.edge_length, &options.sharp_angle, &options.flatness}) change(bytes, *option);
+  const LocalSizes local = local_sizes_of(bytes);
+  const BackgroundSizes background = sizes_of(bytes);
+  if (bytes.flag()) options.local = &local;
+  if (bytes.flag()) options.background = &background;
   remesh_surface(input_of(bytes), options, limited_to(2));
 }
 
@@ -165,13 +231,9 @@ void repair_anything(Bytes& bytes) {
 }
 
 void try_bytes(Bytes bytes) {
-  switch (bytes.below(7)) {
-    case 0: {
-      const MeshOptions options = options_of(bytes);
-      number_of_threads(options), improvement_of(options);
-      mesh_plc(input_of(bytes), options, limited_to(2));
-      break;
-    }
+  switch (bytes.below(8)) {
+    case 0:
+      return mesh_anything(bytes);
     case 1: {
       double flatness = usual_flatness;
       change(bytes, flatness);
@@ -186,6 +248,8 @@ void try_bytes(Bytes bytes) {
       return write_plc_somewhere(bytes);
     case 5:
       return write_mesh_somewhere(bytes);
+    case 6:
+      return improve_anything(bytes);
     default: {
       const auto points = several(bytes, 8, [&] { return point(bytes); });
       flatness_for(points, number(bytes));

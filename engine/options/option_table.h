@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "engine/mesher.h"
+#include "engine/options/mesh_options.h"
 
-namespace ccdt::baselines {
+namespace ccdt::options {
 
 /// One of several names. "on" and "off" stand for true and false.
 struct ChoiceKind {
@@ -22,14 +22,14 @@ struct ChoiceKind {
   std::function<void(MeshOptions&, std::string_view)> set;  ///< nothing happens for other names
 };
 
-/// A finite number within bounds.
+/// A finite number within bounds. The default may be outside of them.
 struct NumberKind {
   double& (*member)(MeshOptions&);
   double least = 0, most = std::numeric_limits<double>::infinity();
   bool excludes_least = false;
 };
 
-/// A whole number within bounds.
+/// A whole number within bounds. The default may be outside of them.
 struct CountKind {
   unsigned& (*member)(MeshOptions&);
   int least = 1, most = 1;
@@ -47,8 +47,8 @@ struct Need {
   std::string_view value;
 };
 
-/// An option of `ccdt mesh` that controls meshing: everything that the command line, sweeps, reports and the reference
-/// know about it.
+/// An option of `ccdt mesh` that controls meshing: everything that the command line, the libraries, sweeps, reports and
+/// the reference know about it.
 struct MeshOption {
   std::string_view name;  ///< without dashes: "edge-length"; in JSON with underscores
   std::variant<ChoiceKind, NumberKind, CountKind, FileKind> kind;
@@ -72,12 +72,13 @@ const MeshOption* find_mesh_option(std::string_view name);
 /// A value as it is in reports.
 using OptionValue = std::variant<bool, double, std::string>;
 
-OptionValue recorded_value(const MeshOption& option, MeshOptions& options);
+OptionValue recorded_value(const MeshOption& option, const MeshOptions& options);
 
-/// Sets an option to a value as on the command line. A value that the command line refuses may do nothing.
+/// Sets an option to a value as on the command line. A value that the command line refuses may do nothing; see
+/// `set_option`.
 void set_value(const MeshOption& option, std::string_view value, MeshOptions& options);
 
 /// The value as on the command line.
 std::string text_of(const OptionValue& value);
 
-}  // namespace ccdt::baselines
+}  // namespace ccdt::options

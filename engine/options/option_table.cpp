@@ -1,4 +1,4 @@
-#include "baselines/option_table.h"
+#include "engine/options/option_table.h"
 
 #include <algorithm>
 #include <charconv>
@@ -7,7 +7,7 @@
 
 #include "engine/base/digits.h"
 
-namespace ccdt::baselines {
+namespace ccdt::options {
 namespace {
 
 template <class Enum>
@@ -62,7 +62,8 @@ std::vector<MeshOption> make_table() {
        .what = "surface of the mesh",
        .of_remeshing = true},
       {.name = "sharp-angle",
-       .kind = NumberKind{[](MeshOptions& o) -> double& { return o.sharp_angle; }, 1, 179},
+       .kind = NumberKind{[](MeshOptions& o) -> double& { return o.sharp_angle; }, surface::least_sharp_angle,
+                          surface::most_sharp_angle},
        .what = "remeshing keeps edges between facets whose normals differ by more than this, in degrees",
        .in_report = "degrees; only with remesh and auto",
        .needs = remeshing,
@@ -139,14 +140,16 @@ std::vector<MeshOption> make_table() {
        .of_refinement = true,
        .of_remeshing = true},
       {.name = "curvature-angle",
-       .kind = NumberKind{[](MeshOptions& o) -> double& { return o.local.curvature_angle; }, 0, 180},
+       .kind = NumberKind{[](MeshOptions& o) -> double& { return o.local.curvature_angle; }, 0,
+                          sizes::most_curvature_angle},
        .what = "edges along curved surfaces turn by at most about this angle, in degrees; 0: any",
        .in_report = "degrees that edges along curved surfaces may turn by; 0: any",
        .of_inside = true,
        .of_refinement = true,
        .of_remeshing = true},
       {.name = "elements-through",
-       .kind = NumberKind{[](MeshOptions& o) -> double& { return o.local.elements_through; }, 0, 1000},
+       .kind = NumberKind{[](MeshOptions& o) -> double& { return o.local.elements_through; }, 0,
+                          sizes::most_elements_through},
        .what = "about this many edges fit through thin parts; 0: any",
        .in_report = "edges through thin parts; 0: any",
        .of_inside = true,
@@ -199,7 +202,7 @@ void read_number(std::string_view text, T& number) {
 }
 
 struct ValueReader {
-  MeshOptions& options;
+  MeshOptions& options;  // is not changed
 
   OptionValue operator()(const ChoiceKind& kind) const {
     const std::string_view name = kind.get(options);
@@ -233,8 +236,8 @@ const MeshOption* find_mesh_option(std::string_view name) {
   return found == mesh_options().end() ? nullptr : &*found;
 }
 
-OptionValue recorded_value(const MeshOption& option, MeshOptions& options) {
-  return std::visit(ValueReader{options}, option.kind);
+OptionValue recorded_value(const MeshOption& option, const MeshOptions& options) {
+  return std::visit(ValueReader{const_cast<MeshOptions&>(options)}, option.kind);
 }
 
 void set_value(const MeshOption& option, std::string_view value, MeshOptions& options) {
@@ -247,4 +250,4 @@ std::string text_of(const OptionValue& value) {
   return std::get<std::string>(value);
 }
 
-}  // namespace ccdt::baselines
+}  // namespace ccdt::options
