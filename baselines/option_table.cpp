@@ -62,7 +62,9 @@ std::vector<MeshOption> make_table() {
        .of_remeshing = true},
       {.name = "sharp-angle",
        .kind = NumberKind{[](MeshOptions& o) -> double& { return o.sharp_angle; }, 1, 179},
-       .what = "remeshing keeps edges between facets whose normals differ by more than this, in degrees",
+       .what =
+           "edges between facets whose normals differ by more than this, in degrees, are sharp: remeshing keeps them, "
+           "and they bound the facets of a marker by angle",
        .in_report = "degrees; only with remesh",
        .needs = remeshing,
        .of_remeshing = true},

@@ -164,6 +164,7 @@ void add_requirements(CLI::App& verb, bench::Requirements& required) {
 void add_options(CLI::App& verb, MeshCommand& command) {
   add_files(verb, command);
   verb.add_flag("--repair", command.repair, "repair an input that is not valid; `ccdt check` has options for that");
+  add_markers(verb, command.markers);
   verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
@@ -208,7 +209,7 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "format", "order", "surface-output", "report", "repair", "mesher",
+  for (const char* other : {"output", "format", "order", "surface-output", "report", "repair", "markers", "mesher",
                             "require-dihedral", "require-r", "deviation"})
     std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {

@@ -63,7 +63,8 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
       continue;  // they have messages of their own
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
     if (use == chosen.options.end()) {
-      if (!(remesh && option->of_remeshing))
+      const bool marks = name == "sharp-angle" && command.markers == surface::MarkerSource::by_angle;
+      if (!marks && !(remesh && option->of_remeshing))
         notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
     } else if (use->only_none && value != "none") {
       notes.push_back("--" + name + " was not used: " + chosen.name + " supports only 'none' and its own default");
@@ -99,6 +100,14 @@ InputPlc repaired(const InputPlc& input, double flatness, const Progress& progre
   record.repaired = {certificate.displacement, certificate.area_of_lids, certificate.area_removed};
   record.notes.push_back("the input was repaired: " + reports::in_few_words(certificate));
   return std::move(result.input);
+}
+
+/// Gives markers to the facets, if that was asked for, and notes how many.
+void mark(const MeshCommand& command, InputPlc& input, bench::RunRecord& record) {
+  if (command.markers == surface::MarkerSource::file) return;
+  const Stopwatch watch(record.read_seconds);
+  const int count = surface::mark_by_angle(input, command.options.sharp_angle, command.options.flatness);
+  record.notes.push_back("the facets got markers by angle, from 1 to " + std::to_string(count));
 }
 
 /// Reads the files with sizes that the options name. Numbers on the command line replace those of the file.
@@ -249,6 +258,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
   if (command.repair) input = repaired(input, options.flatness, progress, record);
+  mark(command, input, record);
   read_size_files(command, options, record);
 
   const bool is_counted = options.tetrahedra > 0;

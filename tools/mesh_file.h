@@ -8,6 +8,7 @@
 #include "bench/run/run_record.h"
 #include "engine/base/progress.h"
 #include "engine/mesher.h"
+#include "engine/surface/mark_by_angle.h"
 
 namespace ccdt::tools {
 
@@ -18,6 +19,7 @@ struct MeshCommand {
   int order = 1;               ///< of the elements in the output
   std::string surface_output;  ///< file for the remeshed or repaired surface
   bool repair = false;         ///< before meshing
+  surface::MarkerSource markers = surface::MarkerSource::file;
   std::string mesher = "ccdt";
   MeshOptions options;
   bench::Requirements required;

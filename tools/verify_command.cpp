@@ -23,6 +23,7 @@ struct VerifyCommand {
   std::string input, mesh, report;
   bool details = false;
   verify::VerifyOptions options;
+  MarkerOptions markers;
   unsigned threads = 0;
 };
 
@@ -38,6 +39,7 @@ bool run(const VerifyCommand& command) {
     TetMesh mesh;
     const auto read_input = [&] {
       input = io::read_plc(command.input);
+      mark(input, command.markers, command.options.flatness);
       if (auto triangulated = plc::triangulate_warped_facets(input)) input = std::move(*triangulated);
     };
     std::exception_ptr bad_mesh;  // kept, because errors of the input are reported first
@@ -79,6 +81,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
           "for coordinates rounded to single precision")
       ->check(non_negative_number())
       ->capture_default_str();
+  add_markers(*verb, command->markers);
   add_choice(*verb, "--constrained-delaunay", command->options.delaunay,
              "whether the mesh must be constrained Delaunay");
   add_choice(*verb, "--surface", command->options.surface, "which surface the mesh must have");

@@ -12,6 +12,7 @@
 #include "engine/geometry/closest_point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/surface/sharp_angle.h"
 
 namespace ccdt::surface {
 
@@ -59,9 +60,7 @@ std::vector<char> find_vertices_listed_alone(const plc::InputPlc& input, const p
 class SurfaceCutter {
  public:
   SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, double sharp_angle, double flatness)
-      : plc_(plc),
-        cosine_(portable::cosine(to_radians(sharp_angle + 1e-6))),
-        cosine_at_tips_(portable::cosine(to_radians(turn_at_tip(sharp_angle)))) {
+      : plc_(plc), sharp_angle_(sharp_angle), cosine_at_tips_(portable::cosine(to_radians(turn_at_tip(sharp_angle)))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
     segments_ = declared_segments(input, plc, plc::tolerance_of(plc, flatness));
@@ -107,8 +106,8 @@ class SurfaceCutter {
 
   bool is_sharp(std::uint32_t e) const {
     const auto around = edges_.around(e);
-    const double cosine = dot(surface_.triangle_normals[around[0]], surface_.triangle_normals[around[1]]);
-    return (oriented_alike(e) ? cosine : -cosine) < cosine_;
+    return sharp_angle_.is_exceeded(surface_.triangle_normals[around[0]], surface_.triangle_normals[around[1]],
+                                    oriented_alike(e));
   }
 
   void find_features() {
@@ -270,7 +269,8 @@ class SurfaceCutter {
   }
 
   const plc::Plc& plc_;
-  double cosine_, cosine_at_tips_;
+  SharpAngle sharp_angle_;
+  double cosine_at_tips_;
   plc::SegmentSet segments_;
   SegmentMarkers segment_markers_;
   std::vector<plc::VertexTriple> corners_;
