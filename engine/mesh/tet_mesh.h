@@ -18,7 +18,7 @@ struct TetMesh {
   std::vector<int> regions;                              ///< region attribute of each tetrahedron
   std::vector<std::array<std::uint32_t, 3>> faces;       ///< faces of the mesh on boundary and interior facets
   std::vector<int> face_markers;                         ///< or empty: unknown
-  std::map<int, std::string> face_names;                 ///< of face markers; Gmsh's, .inp, polyMesh keep them
+  std::map<int, std::string> face_names;                 ///< of face markers; Gmsh's, .vtu, .inp, polyMesh keep them
   std::vector<std::array<std::uint32_t, 2>> edges;       ///< edges of the mesh on segments
   std::vector<int> edge_markers;
   bool constrained_delaunay =
