@@ -61,7 +61,7 @@ void check_surface_output(const std::filesystem::path& file) {
 }
 
 void check_files(const MeshCommand& command) {
-  io::check_tet_mesh_output(command.output, command.format, command.order);
+  io::check_tet_mesh_output(command.output, command.format, command.order, command.partitions > 0);
   check_folder_can_be_written(command.output);
   const MeshOptions& options = command.options;
   std::vector<std::string> others = {command.input, options.background.name, options.local.name};
@@ -141,6 +141,11 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "2: elements with a node in the middle of each edge, in .msh .msh4 .vtu .inp .xdmf")
       ->check(whole_number(1, 2))
       ->capture_default_str();
+  verb.add_option(
+          "--partitions", command.partitions,
+          "divide the tetrahedra into this many parts for solvers on several processes, by METIS, in .msh .msh4 "
+          ".vtu")
+      ->check(whole_number(1, 1'000'000));
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
   verb.add_option("--report", command.report,
@@ -209,8 +214,8 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "format", "order", "surface-output", "report", "repair", "markers", "mesher",
-                            "require-dihedral", "require-r", "deviation"})
+  for (const char* other : {"output", "format", "order", "partitions", "surface-output", "report", "repair", "markers",
+                            "mesher", "require-dihedral", "require-r", "deviation"})
     std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);

@@ -29,6 +29,7 @@
 #include "engine/surface/surface_change.h"
 #include "reports/check_text.h"
 #include "tools/part_of_result.h"
+#include "tools/partition_mesh.h"
 
 namespace ccdt::tools {
 namespace {
@@ -207,6 +208,15 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   record.set_failure(baselines::FailureKind::missed, bench::joined(words, "; "));
 }
 
+void partition(const MeshCommand& command, TetMesh& mesh, bench::RunRecord& record) {
+  if (command.partitions == 0) return;
+  const PartitionSizes sizes =
+      with_file_in_errors(command.input, [&] { return partition_mesh(command.partitions, mesh); });
+  record.notes.push_back("partitions have from " + bench::with_separators(sizes.least) + " to " +
+                         bench::with_separators(sizes.most) + " tetrahedra, with " +
+                         bench::with_separators(sizes.cut_faces) + " faces between them");
+}
+
 /// Runs a mesher. If it refuses the input, the error also names the verb that lists everything that is wrong with it.
 template <class Run>
 auto with_advice_on_input(const std::string& file, const Run& run) {
@@ -269,16 +279,16 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
     mesh_prepared(command, factor, meshed, record, progress);
     return meshed;
   };
-  const Meshed meshed = is_counted
-                            ? steps::reach_count(
-                                  options.tetrahedra, mesh_with,
-                                  [](const Meshed& m) { return m.run.result.mesh.tetrahedra.size(); }, command.input)
-                            : mesh_with(1);
+  Meshed meshed = is_counted ? steps::reach_count(
+                                   options.tetrahedra, mesh_with,
+                                   [](const Meshed& m) { return m.run.result.mesh.tetrahedra.size(); }, command.input)
+                             : mesh_with(1);
   record.peak_rss_bytes = bench::peak_rss_bytes();  // the mesher's own, without that of the measurements below
   record_result(command, meshed.options, meshed.run, record);
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);
+  partition(command, meshed.run.result.mesh, record);
   if (!command.surface_output.empty()) io::write_plc(meshed.surface, command.surface_output);
   PartOfResult surface(command.surface_output);
   io::write_tet_mesh(meshed.run.result.mesh, command.output, command.format, command.order);

@@ -223,6 +223,9 @@ struct CellList {
 
   bool has_attributes() const { return tetrahedra > 0 || !lacks_markers(nodes.mesh()); }
 
+  bool has_partitions() const { return tetrahedra > 0 && !nodes.mesh().partitions.empty(); }
+  std::int32_t partition(std::size_t tetrahedron) const { return nodes.mesh().partitions[tetrahedron]; }
+
   /// The region of a tetrahedron, or the marker of a face or an edge.
   std::int32_t attribute(std::size_t cell) const {
     const mesh::TetMesh& mesh = nodes.mesh();
@@ -295,6 +298,7 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
                                               AppendedArray{"UInt8", "types", of_cells(&CellList::type)}};
   std::vector<AppendedArray> of_each_cell;
   if (list.has_attributes()) of_each_cell.push_back({"Int32", attribute, of_cells(&CellList::attribute)});
+  if (list.has_partitions()) of_each_cell.push_back({"Int32", "partition", of_cells(&CellList::partition)});
   std::vector<AppendedArray> of_each_point;
   if (!list.point_of_node.empty())
     of_each_point.push_back({"UInt32", vtu_point_vertex,
