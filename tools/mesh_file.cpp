@@ -79,7 +79,8 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
-  if (!input.marker_names.empty()) record.notes.push_back(note_of(input.marker_names));
+  if (!input.marker_names.empty() && command.markers == surface::MarkerSource::file)
+    record.notes.push_back(note_of(input.marker_names));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
   return record;
 }

@@ -1,6 +1,7 @@
 #include "engine/io/formats.h"
 
 #include <algorithm>
+#include <array>
 #include <ranges>
 
 #include "engine/base/check_arguments.h"
@@ -158,6 +159,11 @@ std::string_view ending_shown_by(const FileBytes& file) {
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& known_endings) {
   check_is_file(file);  // "no such file" is the better message
+  const auto of_cad = std::to_array<std::string_view>({".step", ".stp", ".iges", ".igs", ".brep"});
+  if (std::ranges::find(of_cad, lower_ending(file)) != of_cad.end())
+    throw InputError("a file '" + lower_ending(file) + "' has curved surfaces and no triangles",
+                     place_in(file.string()),
+                     "let Gmsh make triangles: gmsh part.step -2 -setnumber Mesh.StlOneSolidPerSurface 1 -o part.stl");
   throw InputError("unknown file extension '" + lower_ending(file) + "'", place_in(file.string()),
                    "convert the file, or rename it to one of " + known_endings);
 }
