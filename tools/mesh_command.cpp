@@ -21,6 +21,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/limit_errors.h"
+#include "tools/markers.h"
 #include "tools/mesh_file.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"

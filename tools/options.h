@@ -9,7 +9,6 @@
 
 #include "baselines/option_table.h"
 #include "engine/base/enum_names.h"
-#include "engine/surface/mark_by_angle.h"
 
 namespace ccdt::tools {
 
@@ -51,21 +50,6 @@ void add_choice(CLI::App& verb, const std::string& option, Enum& target, const s
 
 /// Adds an option of the table. \param options  get the value, and have the default
 void add_mesh_option(CLI::App& verb, const baselines::MeshOption& option, MeshOptions& options);
-
-/// Where the markers of an input come from, in verbs that do not mesh.
-struct MarkerOptions {
-  surface::MarkerSource source = surface::MarkerSource::file;
-  double sharp_angle = surface::usual_sharp_angle;  ///< in degrees
-};
-
-/// Adds --markers.
-void add_markers(CLI::App& verb, surface::MarkerSource& source);
-/// Adds --markers and --sharp-angle, as `ccdt mesh` has them.
-void add_markers(CLI::App& verb, MarkerOptions& options);
-
-/// Gives markers to the facets, if that was asked for.
-/// \throw InputError  see `surface::mark_by_angle`
-void mark(InputPlc& input, const MarkerOptions& options, double flatness);
 
 /// Adds --threads. \param threads  gets their number; 0, which stands for all cores, is the default
 void add_threads(CLI::App& verb, unsigned& threads);

@@ -12,6 +12,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/limit_errors.h"
+#include "tools/markers.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
