@@ -28,6 +28,7 @@
 #include "engine/surface/prepare_surface.h"
 #include "engine/surface/surface_change.h"
 #include "reports/check_text.h"
+#include "tools/options.h"
 #include "tools/part_of_result.h"
 #include "tools/partition_mesh.h"
 
