@@ -188,6 +188,7 @@ ImprovedMesh improve_on_threads(mesh::TetMesh mesh, const improve::ImproveOption
   const std::vector<Point3> points = std::move(complex).take_mesh(mesh);
   mesh.vertices = mesh::to_world(original, points, mesh.tetrahedra);
   if (!has_markers) mesh.face_markers.clear();
+  mesh.partitions.clear();  // they were of other tetrahedra
   result.mesh = std::move(mesh);
   return result;
 }

@@ -24,7 +24,7 @@ struct ImprovedMesh {
 /// \param options     targets and strategies; its rules for the boundary and for Steiner vertices play no part
 /// \param threads     how many work at the same time; 0: one per core. Same mesh
 /// \param progress    called repeatedly; throw from it to cancel
-/// \return            vertices on those faces and edges come first, in their old order
+/// \return            vertices on those faces and edges come first, in their old order; there are no partitions
 /// \throw InputError  the mesh is not one: an index out of range, a flat tetrahedron, tetrahedra that share a face but
 ///                    not its two sides, a listed face or edge that no tetrahedron has; or an option is out of range
 /// \throw ...         any exception of `progress`

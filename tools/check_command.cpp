@@ -11,6 +11,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/limit_errors.h"
+#include "tools/markers.h"
 #include "tools/options.h"
 #include "tools/part_of_result.h"
 #include "tools/progress_bar.h"
@@ -22,6 +23,7 @@ namespace {
 struct CheckCommand {
   std::string input, output, report;
   bool repair = false, details = false;
+  MarkerOptions markers;
   repair::RepairOptions options;
   unsigned threads = 0;
 };
@@ -32,6 +34,12 @@ void check_files(const CheckCommand& command) {
     check_can_be_written(file);
     check_are_different(command.input, file);
   }
+}
+
+void check_markers(const CheckCommand& command) {
+  if (command.markers.source == surface::MarkerSource::file || io::keeps_markers(command.output)) return;
+  throw OutputError("this format does not keep markers", io::place_in(command.output),
+                    "choose .obj, .ply, .poly, .smesh, .mesh or .meshb");
 }
 
 void print_diagnosis(const std::string& file, const repair::Diagnosis& diagnosis, bool details) {
@@ -49,6 +57,7 @@ reports::CheckReport::Copy repaired_copy(const CheckCommand& command, const plc:
       {}, std::move(repaired.steps), repaired.certificate, std::move(repaired.refused), repaired.is_out_of_time, {}};
   if (copy.refused.empty()) {
     copy.output = command.output;
+    mark(repaired.input, command.markers, command.options.flatness);
     io::write_plc(repaired.input, command.output);
   }
   PartOfResult written(copy.output);
@@ -79,6 +88,7 @@ void print_copy(const CheckCommand& command, const reports::CheckReport::Copy& c
 ExitCode run(const CheckCommand& command) {
   keep_freed_memory();
   check_files(command);
+  check_markers(command);
   reports::CheckReport report{.input = command.input};
   with_progress(command.input, command.threads, [&](const Progress& progress) {
     const plc::InputPlc input = io::read_plc(command.input);
@@ -123,6 +133,8 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
                    "1,000 facets")
       ->check(positive_number())
       ->needs(repair);
+  add_markers(*verb, command->markers);
+  verb->get_option("--markers")->needs(repair);
   verb->add_option(
           "--flatness", command->options.flatness,
           "tolerance for flat facets, as a fraction of the bounding box; the default is larger for coordinates rounded "

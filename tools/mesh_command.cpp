@@ -21,6 +21,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/limit_errors.h"
+#include "tools/markers.h"
 #include "tools/mesh_file.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
@@ -63,7 +64,7 @@ void check_surface_output(const std::filesystem::path& file) {
 }
 
 void check_files(const MeshCommand& command) {
-  io::check_tet_mesh_output(command.output, command.format, command.order);
+  io::check_tet_mesh_output(command.output, command.format, command.order, command.partitions > 0);
   check_folder_can_be_written(command.output);
   const MeshOptions& options = command.options;
   std::vector<std::string> others = {command.input, options.background.name, options.local.name};
@@ -146,6 +147,11 @@ void add_files(CLI::App& verb, MeshCommand& command) {
                   "2: elements with a node in the middle of each edge, in .msh .msh4 .vtu .inp .xdmf")
       ->check(whole_number(1, 2))
       ->capture_default_str();
+  verb.add_option(
+          "--partitions", command.partitions,
+          "divide the tetrahedra into this many parts for solvers on several processes, by METIS, in .msh .msh4 "
+          ".vtu")
+      ->check(whole_number(1, 1'000'000));
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
   verb.add_option("--report", command.report,
@@ -164,6 +170,7 @@ void add_requirements(CLI::App& verb, bench::Requirements& required) {
 void add_options(CLI::App& verb, MeshCommand& command) {
   add_files(verb, command);
   verb.add_flag("--repair", command.repair, "repair an input that is not valid; `ccdt check` has options for that");
+  add_markers(verb, command.markers);
   verb.add_option("--mesher", command.mesher, "mesher: one of those below, or a .json file that describes another")
       ->check(known_mesher())
       ->capture_default_str();
@@ -208,8 +215,8 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other :
-       {"output", "format", "order", "surface-output", "report", "repair", "mesher", "require-dihedral", "require-r"})
+  for (const char* other : {"output", "format", "order", "partitions", "surface-output", "report", "repair", "markers",
+                            "mesher", "require-dihedral", "require-r"})
     std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);

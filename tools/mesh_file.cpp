@@ -28,7 +28,9 @@
 #include "engine/surface/prepare_surface.h"
 #include "engine/surface/surface_change.h"
 #include "reports/check_text.h"
+#include "tools/options.h"
 #include "tools/part_of_result.h"
+#include "tools/partition_mesh.h"
 
 namespace ccdt::tools {
 namespace {
@@ -63,7 +65,8 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
       continue;  // they have messages of their own
     const auto use = std::ranges::find(chosen.options, name, &baselines::OptionUse::name);
     if (use == chosen.options.end()) {
-      if (!(remesh && option->of_remeshing))
+      const bool marks = name == "sharp-angle" && command.markers == surface::MarkerSource::by_angle;
+      if (!marks && !(remesh && option->of_remeshing))
         notes.push_back(chosen.name + " does not have the option --" + name + ", so it was not used");
     } else if (use->only_none && value != "none") {
       notes.push_back("--" + name + " was not used: " + chosen.name + " supports only 'none' and its own default");
@@ -77,7 +80,8 @@ bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input)
   if (command.mesher != "ccdt") record.set_option("threads", 1.0);
   record.command = bench::command_line();
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
-  if (!input.marker_names.empty()) record.notes.push_back(note_of(input.marker_names));
+  if (!input.marker_names.empty() && command.markers == surface::MarkerSource::file)
+    record.notes.push_back(note_of(input.marker_names));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
   return record;
 }
@@ -99,6 +103,14 @@ InputPlc repaired(const InputPlc& input, double flatness, const Progress& progre
   record.repaired = {certificate.displacement, certificate.area_of_lids, certificate.area_removed};
   record.notes.push_back("the input was repaired: " + reports::in_few_words(certificate));
   return std::move(result.input);
+}
+
+/// Gives markers to the facets, if that was asked for, and notes how many.
+void mark(const MeshCommand& command, InputPlc& input, bench::RunRecord& record) {
+  if (command.markers == surface::MarkerSource::file) return;
+  const Stopwatch watch(record.read_seconds);
+  const int count = surface::mark_by_angle(input, command.options.sharp_angle, command.options.flatness);
+  record.notes.push_back("the facets got markers by angle, from 1 to " + std::to_string(count));
 }
 
 /// Reads the files with sizes that the options name. Numbers on the command line replace those of the file.
@@ -196,6 +208,15 @@ void record_result(const MeshCommand& command, const MeshOptions& options, const
   record.set_failure(baselines::FailureKind::missed, bench::joined(words, "; "));
 }
 
+void partition(const MeshCommand& command, TetMesh& mesh, bench::RunRecord& record) {
+  if (command.partitions == 0) return;
+  const PartitionSizes sizes =
+      with_file_in_errors(command.input, [&] { return partition_mesh(command.partitions, mesh); });
+  record.notes.push_back("partitions have from " + bench::with_separators(sizes.least) + " to " +
+                         bench::with_separators(sizes.most) + " tetrahedra, with " +
+                         bench::with_separators(sizes.cut_faces) + " faces between them");
+}
+
 /// Runs a mesher. If it refuses the input, the error also names the verb that lists everything that is wrong with it.
 template <class Run>
 auto with_advice_on_input(const std::string& file, const Run& run) {
@@ -247,6 +268,7 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
   MeshOptions options = command.options;
   if (command.repair) input = repaired(input, options.flatness, progress, record);
+  mark(command, input, record);
   read_size_files(command, options, record);
 
   const bool is_counted = options.tetrahedra > 0;
@@ -257,16 +279,16 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
     mesh_prepared(command, factor, meshed, record, progress);
     return meshed;
   };
-  const Meshed meshed = is_counted
-                            ? steps::reach_count(
-                                  options.tetrahedra, mesh_with,
-                                  [](const Meshed& m) { return m.run.result.mesh.tetrahedra.size(); }, command.input)
-                            : mesh_with(1);
+  Meshed meshed = is_counted ? steps::reach_count(
+                                   options.tetrahedra, mesh_with,
+                                   [](const Meshed& m) { return m.run.result.mesh.tetrahedra.size(); }, command.input)
+                             : mesh_with(1);
   record.peak_rss_bytes = bench::peak_rss_bytes();  // the mesher's own, without that of the measurements below
   record_result(command, meshed.options, meshed.run, record);
 
   report(progress, "write", 0, 0);
   const Stopwatch watch(record.write_seconds);
+  partition(command, meshed.run.result.mesh, record);
   if (!command.surface_output.empty()) io::write_plc(meshed.surface, command.surface_output);
   PartOfResult surface(command.surface_output);
   io::write_tet_mesh(meshed.run.result.mesh, command.output, command.format, command.order);

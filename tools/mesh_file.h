@@ -8,6 +8,7 @@
 #include "bench/run/run_record.h"
 #include "engine/base/progress.h"
 #include "engine/mesher.h"
+#include "engine/surface/mark_by_angle.h"
 
 namespace ccdt::tools {
 
@@ -16,8 +17,10 @@ struct MeshCommand {
   std::string input, output, report;
   std::string format;          ///< of the output; empty: that of its extension
   int order = 1;               ///< of the elements in the output
+  int partitions = 0;          ///< of the tetrahedra in the output; 0: none
   std::string surface_output;  ///< file for the remeshed or repaired surface
   bool repair = false;         ///< before meshing
+  surface::MarkerSource markers = surface::MarkerSource::file;
   std::string mesher = "ccdt";
   MeshOptions options;
   bench::Requirements required;

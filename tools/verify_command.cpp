@@ -12,6 +12,7 @@
 #include "tools/commands.h"
 #include "tools/freed_memory.h"
 #include "tools/limit_errors.h"
+#include "tools/markers.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
 #include "tools/terminal.h"
@@ -23,6 +24,7 @@ struct VerifyCommand {
   std::string input, mesh, report;
   bool details = false;
   verify::VerifyOptions options;
+  MarkerOptions markers;
   unsigned threads = 0;
 };
 
@@ -38,6 +40,7 @@ bool run(const VerifyCommand& command) {
     TetMesh mesh;
     const auto read_input = [&] {
       input = io::read_plc(command.input);
+      mark(input, command.markers, command.options.flatness);
       if (auto triangulated = plc::triangulate_warped_facets(input)) input = std::move(*triangulated);
     };
     std::exception_ptr bad_mesh;  // kept, because errors of the input are reported first
@@ -79,6 +82,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
           "for coordinates rounded to single precision")
       ->check(non_negative_number())
       ->capture_default_str();
+  add_markers(*verb, command->markers);
   add_choice(*verb, "--constrained-delaunay", command->options.delaunay,
              "whether the mesh must be constrained Delaunay");
   add_choice(*verb, "--surface", command->options.surface, "which surface the mesh must have");

@@ -1,6 +1,7 @@
 #include "engine/io/formats.h"
 
 #include <algorithm>
+#include <array>
 #include <ranges>
 
 #include "engine/base/check_arguments.h"
@@ -87,8 +88,8 @@ void check_mesh(const mesh::TetMesh& mesh, const std::string& file) {
   const std::size_t count = mesh.vertices.size();
   if (!are_below(count, mesh.tetrahedra) || !are_below(count, mesh.faces) || !are_below(count, mesh.edges))
     throw OutputError("the mesh has a corner that is not a vertex", place_in(file), "count the vertices from 0");
-  if (!is_empty_or_complete(mesh.regions, mesh.tetrahedra) || !is_empty_or_complete(mesh.face_markers, mesh.faces) ||
-      !is_empty_or_complete(mesh.edge_markers, mesh.edges))
+  if (!is_empty_or_complete(mesh.regions, mesh.tetrahedra) || !is_empty_or_complete(mesh.partitions, mesh.tetrahedra) ||
+      !is_empty_or_complete(mesh.face_markers, mesh.faces) || !is_empty_or_complete(mesh.edge_markers, mesh.edges))
     throw OutputError("a list of attributes is not as long as that of the elements", place_in(file),
                       "give none, or one for each element");
   if (!std::ranges::all_of(mesh.vertices, is_finite))
@@ -106,6 +107,7 @@ struct TetMeshFormat {
   mesh::TetMesh (*read_files)(const std::filesystem::path&) = nullptr;
   void (*write_files)(const mesh::TetMesh&, const std::filesystem::path&) = nullptr;
   void (*write_node_files)(const mesh::ElementNodes&, const std::filesystem::path&) = nullptr;
+  bool has_partitions = false;
 
   bool has_second_order() const { return write_nodes || write_node_files; }
 };
@@ -113,9 +115,9 @@ struct TetMeshFormat {
 constexpr TetMeshFormat mesh_formats[] = {
     {".mesh", read_medit_mesh, write_medit_mesh},
     {".meshb", read_meditb_mesh, write_meditb_mesh},
-    {.ending = ".vtu", .read_files = read_vtu_files, .write_node_files = write_vtu_files},
-    {.ending = ".msh", .read = read_gmsh, .write_nodes = write_gmsh},
-    {.ending = ".msh4", .read = read_gmsh, .write_nodes = write_gmsh4},
+    {.ending = ".vtu", .read_files = read_vtu_files, .write_node_files = write_vtu_files, .has_partitions = true},
+    {.ending = ".msh", .read = read_gmsh, .write_nodes = write_gmsh, .has_partitions = true},
+    {.ending = ".msh4", .read = read_gmsh, .write_nodes = write_gmsh4, .has_partitions = true},
     {.ending = ".inp", .write_nodes = write_abaqus},
     {.ending = ".xdmf", .write_node_files = write_xdmf_files},
     {.ending = ".polymesh", .check = check_replaces_poly_mesh, .write_files = write_poly_mesh},
@@ -157,6 +159,11 @@ std::string_view ending_shown_by(const FileBytes& file) {
 
 [[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& known_endings) {
   check_is_file(file);  // "no such file" is the better message
+  const auto of_cad = std::to_array<std::string_view>({".step", ".stp", ".iges", ".igs", ".brep"});
+  if (std::ranges::find(of_cad, lower_ending(file)) != of_cad.end())
+    throw InputError("a file '" + lower_ending(file) + "' has curved surfaces and no triangles",
+                     place_in(file.string()),
+                     "let Gmsh make triangles: gmsh part.step -2 -setnumber Mesh.StlOneSolidPerSurface 1 -o part.stl");
   throw InputError("unknown file extension '" + lower_ending(file) + "'", place_in(file.string()),
                    "convert the file, or rename it to one of " + known_endings);
 }
@@ -167,14 +174,17 @@ std::string_view ending_shown_by(const FileBytes& file) {
                     "choose one of " + known_endings);
 }
 
-/// \throw OutputError  there is none, or it does not hold elements of this order
-const TetMeshFormat& written_mesh_format(const std::filesystem::path& file, const std::string& format, int order) {
+/// \throw OutputError  there is none, or it does not hold elements of this order, or partitions
+const TetMeshFormat& written_mesh_format(const std::filesystem::path& file, const std::string& format, int order,
+                                         bool partitioned) {
   const std::string ending = format.empty() ? lower_ending(file) : "." + format;
   const TetMeshFormat* const found = format_called(ending, mesh_formats);
   if (!found) fail_to_write(ending, file, written_mesh_endings);
   if (order == 2 && !found->has_second_order())
     throw OutputError("this format does not hold elements of second order", place_in(file.string()),
                       "choose .msh, .msh4, .vtu, .inp or .xdmf");
+  if (partitioned && !found->has_partitions)
+    throw OutputError("this format does not hold partitions", place_in(file.string()), "choose .msh, .msh4 or .vtu");
   return *found;
 }
 
@@ -293,14 +303,14 @@ std::vector<std::string> tet_mesh_formats() {
   return names;
 }
 
-void check_tet_mesh_output(const std::filesystem::path& file, const std::string& format, int order) {
-  written_mesh_format(file, format, order).check(file);
+void check_tet_mesh_output(const std::filesystem::path& file, const std::string& format, int order, bool partitioned) {
+  written_mesh_format(file, format, order, partitioned).check(file);
 }
 
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format,
                     int order) {
   check_mesh(mesh, file.string());
-  const TetMeshFormat& found = written_mesh_format(file, format, order);
+  const TetMeshFormat& found = written_mesh_format(file, format, order, !mesh.partitions.empty());
   if (found.write_files) return found.write_files(mesh, file);
   const mesh::ElementNodes nodes(mesh, order);
   if (found.write_node_files) return found.write_node_files(nodes, file);

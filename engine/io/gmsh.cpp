@@ -50,7 +50,7 @@ class GmshReader {
         read_format();
       else if (section == "$PhysicalNames")
         read_names();
-      else if (section != "$Nodes" && section != "$Elements" && (section != "$Entities" || version_ != 4))
+      else if (section != "$Nodes" && section != "$Elements" && (!is_entities(section) || version_ != 4))
         skip_section(section);
       else if (version_ == 0)
         text.fail(section, "there is no $MeshFormat before it", version_remedy);
@@ -71,6 +71,10 @@ class GmshReader {
   /// Without physical groups there are no markers. (Version 2 has a tag for each element, which is 0.)
   void drop_missing_markers() {
     if (physical_tags_[1].empty() && physical_tags_[2].empty()) mesh_.face_markers.clear(), mesh_.edge_markers.clear();
+  }
+
+  static bool is_entities(std::string_view section) {
+    return section == "$Entities" || section == "$PartitionedEntities";
   }
 
   void read_format() {
@@ -100,8 +104,8 @@ class GmshReader {
 
   void read_section(std::string_view section) {
     if (version_ == 4) in_.begin_numbers();
-    if (section == "$Entities")
-      read_entities();
+    if (is_entities(section))
+      read_entities(section != "$Entities");
     else if (section == "$Nodes")
       version_ == 2 ? read_nodes_2() : read_nodes_4();
     else if (version_ == 4)
@@ -111,20 +115,29 @@ class GmshReader {
     in_.end_numbers();
   }
 
-  /// Counts of points, curves, surfaces and volumes; then for each "tag box physical-tags [bounding entities]".
-  void read_entities() {
+  /// Counts of points, curves, surfaces and volumes; then for each "tag box physical-tags [bounding entities]". If they
+  /// are parts of entities in partitions, the number of partitions and a list of ghosts come first, and after each tag
+  /// "parent-dimension parent-tag partitions".
+  void read_entities(bool are_parts) {
     const Item item = "entity";
+    if (are_parts) {
+      in_.size(item);
+      in_.skip_integers(item, 2 * in_.count(item, 4, 8));
+    }
     std::array<std::size_t, 4> counts;
     for (std::size_t& count : counts) count = in_.count(item, 10, 36);
     for (std::size_t dimension = 0; dimension < 4; ++dimension) {
       for (std::size_t i = 0; i < counts[dimension]; ++i) {
         const std::int64_t tag = in_.integer(item);
+        if (are_parts) {
+          in_.skip_integers(item, 2);
+          in_.skip_integers(item, in_.count(item, 2, 4));
+        }
         in_.skip_numbers(item, dimension == 0 ? 3 : 6);
         const std::size_t tags = in_.count(item, 2, 4);
         if (tags > 0) physical_tags_[dimension][tag] = in_.attribute(item);
         for (std::size_t k = 1; k < tags; ++k) in_.attribute(item);
-        const std::size_t bounding = dimension == 0 ? 0 : in_.count(item, 2, 4);
-        for (std::size_t k = 0; k < bounding; ++k) in_.integer(item);
+        if (dimension > 0) in_.skip_integers(item, in_.count(item, 2, 4));
       }
     }
   }

@@ -54,6 +54,10 @@ class GmshSource {
     if (binary_) return bytes_.skip(item, count * sizeof(double));
     for (std::size_t k = 0; k < count; ++k) text_.word(item);
   }
+  void skip_integers(const Item& item, std::size_t count) {
+    if (binary_) return bytes_.skip(item, count * sizeof(std::int32_t));
+    for (std::size_t k = 0; k < count; ++k) text_.word(item);
+  }
   /// Reads how many items follow, given the least size of each in text and in binary.
   std::size_t count(const Item& item, std::size_t least_characters_each, std::size_t least_bytes_each) {
     return binary_ ? bytes_.count<std::int64_t>(item, least_bytes_each) : text_.count(item, least_characters_each);

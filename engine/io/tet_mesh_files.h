@@ -14,10 +14,13 @@ bool is_tet_mesh_file(const std::filesystem::path& file);
 /// Checks before hours of work that `write_tet_mesh` knows the format, and that nothing else has the name.
 ///
 /// \param file,format,order  as for `write_tet_mesh`
-/// \throw OutputError  unknown extension; the format does not hold elements of this order; a folder is where a file
+/// \param partitioned        will the mesh have partitions?
+/// \throw OutputError  unknown extension; the format does not hold elements of this order, or partitions; a folder is
+/// where a file
 ///                     will be, or something that is no polyMesh is where a polyMesh
 ///                     will be
-void check_tet_mesh_output(const std::filesystem::path& file, const std::string& format = {}, int order = 1);
+void check_tet_mesh_output(const std::filesystem::path& file, const std::string& format = {}, int order = 1,
+                           bool partitioned = false);
 
 /// The names of all formats: their extensions without the dot.
 std::vector<std::string> tet_mesh_formats();
@@ -27,15 +30,16 @@ std::vector<std::string> tet_mesh_formats();
 /// (Gmsh 4.1, binary), .inp (Abaqus and CalculiX), .xdmf (FEniCS; faces in a second file .boundary.xdmf), .polymesh (a
 /// folder polyMesh of OpenFOAM), .node, .ele or .face (TetGen: all three and .edge are written). Coordinates are
 /// written so that they read back bit for bit, except in .inp, which allows 20 characters for each. Regions, face and
-/// edge markers are written too; .xdmf and .polymesh hold no edges. The file or folder appears completely or not at
-/// all.
+/// edge markers are written too, and partitions in .msh, .msh4 and .vtu; .xdmf and .polymesh hold no edges. The file or
+/// folder appears completely or not at all.
 ///
 /// \param mesh    the lists of attributes are empty or complete
 /// \param file    is replaced, with those that belong to it
 /// \param format  one of `tet_mesh_formats`, such as "msh4" for a file .msh; empty: that of the extension
 /// \param order   1, or 2 for elements with a node in the middle of each straight edge (tetrahedra with ten nodes):
 ///                .msh, .msh4, .vtu, .inp and .xdmf; `read_tet_mesh` does not read them
-/// \throw OutputError  cannot be written, unknown extension, the format does not hold elements of this order, or an
+/// \throw OutputError  cannot be written, unknown extension, the format does not hold elements of this order or
+/// partitions, or an
 ///                     index, a list or a coordinate of the
 ///                     mesh is wrong
 void write_tet_mesh(const mesh::TetMesh& mesh, const std::filesystem::path& file, const std::string& format = {},

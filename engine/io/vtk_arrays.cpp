@@ -101,7 +101,7 @@ void VtkArrays::load_outline() {
     if (!closed.ends_with("/>")) closed += "</AppendedData>";
     xml = closed += "</VTKFile>";
   }
-  const auto result = document_.load_buffer(xml.data(), xml.size(), pugi::parse_minimal, pugi::encoding_utf8);
+  const auto result = document_.load_buffer(xml.data(), xml.size(), pugi::parse_escapes, pugi::encoding_utf8);
   if (!result)
     throw InputError(std::string("this is not XML, or the file is truncated: ") + result.description(),
                      line_of_byte(file_, static_cast<std::size_t>(std::max<std::ptrdiff_t>(result.offset, 0))),
@@ -110,10 +110,16 @@ void VtkArrays::load_outline() {
 }
 
 VtkArrays::Array VtkArrays::find(const char* parent, std::string_view name) const {
-  for (const pugi::xml_node place : {piece_, piece_.parent()})
-    for (const Array array : place.child(parent).children("DataArray"))
-      if (name.empty() || xml_attribute(array, "Name") == name) return array;
+  for (const Array& array : all(parent))
+    if (name.empty() || xml_attribute(array, "Name") == name) return array;
   return {};
+}
+
+std::vector<VtkArrays::Array> VtkArrays::all(const char* parent) const {
+  std::vector<Array> arrays;
+  for (const pugi::xml_node place : {piece_, piece_.parent()})
+    for (const Array array : place.child(parent).children("DataArray")) arrays.push_back(array);
+  return arrays;
 }
 
 VtkArrays::Array VtkArrays::required(const char* parent, std::string_view name) const {

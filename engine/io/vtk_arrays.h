@@ -45,6 +45,9 @@ class VtkArrays {
   /// \throw InputError  there is none
   Array required(const char* parent, std::string_view name) const;
 
+  /// All arrays of the file and of its piece in this parent.
+  std::vector<Array> all(const char* parent) const;
+
   /// A count that the Piece claims.
   std::size_t claimed(const char* name) const;
   void check_size(Array array, std::size_t found, std::size_t due) const;

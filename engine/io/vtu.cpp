@@ -12,6 +12,7 @@
 #include "engine/io/vtk_arrays.h"
 #include "engine/io/vtk_bytes.h"
 #include "engine/io/vtk_values.h"
+#include "engine/io/xml_text.h"
 
 namespace ccdt::io {
 
@@ -147,6 +148,29 @@ void refuse_first_wrong_cell(const VtuCells& cells) {
   });
 }
 
+/// What names of markers are in the file: arrays of the field data with this name and two numbers, the marker and the
+/// dimension of what it marks, as meshio gives the names of Gmsh's groups. (It reads no strings from such files.)
+constexpr int face_dimension = 2;
+
+void write_names(const std::map<int, std::string>& names, OutputFile& out) {
+  for (const auto& [marker, name] : names)
+    out << "      <DataArray type=\"Int32\" Name=\"" << xml_text(name) << "\" NumberOfTuples=\"2\" format=\"ascii\">"
+        << marker << ' ' << face_dimension << "</DataArray>\n";
+}
+
+std::map<int, std::string> read_names(const VtkArrays& arrays) {
+  std::map<int, std::string> names;
+  for (const VtkArrays::Array& array : arrays.all("FieldData")) {
+    if (array.attribute("type").value() != std::string_view("Int32")) continue;
+    const StoredNumbers<std::int64_t> numbers = arrays.read<std::int64_t>(array);
+    if (numbers.size() != 2) continue;
+    std::array<std::int64_t, 2> values;
+    numbers.read(0, 2, values.data());
+    if (values[1] == face_dimension) names[static_cast<int>(values[0])] = array.attribute("Name").value();
+  }
+  return names;
+}
+
 bool is_one(const StoredNumbers<std::int64_t>& numbers) {
   std::int64_t first = 0;
   if (numbers.size() == 1) numbers.read(0, 1, &first);
@@ -198,6 +222,9 @@ struct CellList {
   }
 
   bool has_attributes() const { return tetrahedra > 0 || !lacks_markers(nodes.mesh()); }
+
+  bool has_partitions() const { return tetrahedra > 0 && !nodes.mesh().partitions.empty(); }
+  std::int32_t partition(std::size_t tetrahedron) const { return nodes.mesh().partitions[tetrahedron]; }
 
   /// The region of a tetrahedron, or the marker of a face or an edge.
   std::int32_t attribute(std::size_t cell) const {
@@ -271,6 +298,7 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
                                               AppendedArray{"UInt8", "types", of_cells(&CellList::type)}};
   std::vector<AppendedArray> of_each_cell;
   if (list.has_attributes()) of_each_cell.push_back({"Int32", attribute, of_cells(&CellList::attribute)});
+  if (list.has_partitions()) of_each_cell.push_back({"Int32", "partition", of_cells(&CellList::partition)});
   std::vector<AppendedArray> of_each_point;
   if (!list.point_of_node.empty())
     of_each_point.push_back({"UInt32", vtu_point_vertex,
@@ -279,9 +307,10 @@ void write_grid(const CellList& list, const char* attribute, OutputFile& out) {
   out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
          "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n    <FieldData>\n"
          "      <DataArray type=\"Int32\" Name=\"constrained_delaunay\" NumberOfTuples=\"1\" format=\"ascii\">"
-      << (list.nodes.mesh().constrained_delaunay ? 1 : 0)
-      << "</DataArray>\n    </FieldData>\n    <Piece NumberOfPoints=\"" << list.point_count() << "\" NumberOfCells=\""
-      << list.size() << "\">\n";
+      << (list.nodes.mesh().constrained_delaunay ? 1 : 0) << "</DataArray>\n";
+  if (list.tetrahedra == 0) write_names(list.nodes.mesh().face_names, out);
+  out << "    </FieldData>\n    <Piece NumberOfPoints=\"" << list.point_count() << "\" NumberOfCells=\"" << list.size()
+      << "\">\n";
   std::size_t offset = 0;
   declare("Points", "", points, offset, out);
   declare("Cells", "", cells, offset, out);
@@ -309,6 +338,7 @@ mesh::TetMesh read_vtu(const FileBytes& file) {
     throw;
   }
   if (cells.markers.size() == 0) mesh.face_markers.clear(), mesh.edge_markers.clear();
+  mesh.face_names = read_names(arrays);
   if (const auto claim = arrays.find("FieldData", "constrained_delaunay"))
     mesh.constrained_delaunay = is_one(arrays.read<std::int64_t>(claim));
   return mesh;

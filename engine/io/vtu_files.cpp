@@ -33,6 +33,7 @@ void add_boundary(const FileBytes& file, mesh::TetMesh& mesh) {
   number(boundary.faces);
   number(boundary.edges);
   mesh.faces = std::move(boundary.faces), mesh.face_markers = std::move(boundary.face_markers);
+  mesh.face_names = std::move(boundary.face_names);
   mesh.edges = std::move(boundary.edges), mesh.edge_markers = std::move(boundary.edge_markers);
 }
 

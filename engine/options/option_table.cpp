@@ -64,7 +64,9 @@ std::vector<MeshOption> make_table() {
       {.name = "sharp-angle",
        .kind = NumberKind{[](MeshOptions& o) -> double& { return o.sharp_angle; }, surface::least_sharp_angle,
                           surface::most_sharp_angle},
-       .what = "remeshing keeps edges between facets whose normals differ by more than this, in degrees",
+       .what =
+           "edges between facets whose normals differ by more than this, in degrees, are sharp: remeshing keeps them, "
+           "and they bound the facets of a marker by angle",
        .in_report = "degrees; only with remesh and auto",
        .needs = remeshing,
        .of_remeshing = true},

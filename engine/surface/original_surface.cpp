@@ -14,6 +14,7 @@
 #include "engine/geometry/closest_point.h"
 #include "engine/plc/edge_table.h"
 #include "engine/plc/gather_parts.h"
+#include "engine/surface/sharp_angle.h"
 #include "engine/surface/wide_bends.h"
 
 namespace ccdt::surface {
@@ -63,7 +64,7 @@ class SurfaceCutter {
  public:
   SurfaceCutter(const plc::InputPlc& input, const plc::Plc& plc, const RemeshOptions& options)
       : plc_(plc),
-        cosine_(portable::cosine(to_radians(options.sharp_angle + 1e-6))),
+        sharp_angle_(options.sharp_angle),
         cosine_at_tips_(portable::cosine(to_radians(turn_at_tip(options.sharp_angle)))) {
     surface_.points = plc.world;
     surface_.is_listed_alone = find_vertices_listed_alone(input, plc);
@@ -166,7 +167,11 @@ class SurfaceCutter {
     return {surface_.points, corners_, surface_.triangle_normals, surface_.facet_of, edges_};
   }
 
-  bool is_sharp(std::uint32_t e) const { return cosine_of_turn(bent_surface(), e) < cosine_; }
+  bool is_sharp(std::uint32_t e) const {
+    const auto around = edges_.around(e);
+    return sharp_angle_.is_exceeded(surface_.triangle_normals[around[0]], surface_.triangle_normals[around[1]],
+                                    oriented_alike(e));
+  }
 
   void find_features() {
     segment_markers_.clear();
@@ -331,7 +336,8 @@ class SurfaceCutter {
   }
 
   const plc::Plc& plc_;
-  double cosine_, cosine_at_tips_;
+  SharpAngle sharp_angle_;
+  double cosine_at_tips_;
   std::unordered_set<std::uint64_t> bends_;  // by edge key: kept, although not sharp
   plc::SegmentSet segments_;
   SegmentMarkers segment_markers_;

@@ -56,8 +56,7 @@ struct OriginalSurface {
   }
 };
 
-/// \param plc          of this input, built with the same flatness
-/// \param sharp_angle  see RemeshOptions, as for the flatness
+/// \param plc  of this input, built with the same flatness
 OriginalSurface cut_surface(const plc::InputPlc& input, const plc::Plc& plc, const RemeshOptions& options);
 
 /// A point of the original surface.

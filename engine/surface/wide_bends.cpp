@@ -14,6 +14,16 @@ double edge_length(const BentSurface& surface, std::uint32_t e) {
   return length(surface.points[b] - surface.points[a]);
 }
 
+/// The cosine of the angle between the normals at an edge of two triangles, if both are turned to the same side.
+double cosine_of_turn(const BentSurface& surface, std::uint32_t edge) {
+  const auto around = surface.edges.around(edge);
+  const auto [a, b] = surface.edges.ends[edge];
+  const double cosine = dot(surface.normals[around[0]], surface.normals[around[1]]);
+  const bool alike =
+      plc::runs_along(surface.corners[around[0]], a, b) != plc::runs_along(surface.corners[around[1]], a, b);
+  return alike ? cosine : -cosine;
+}
+
 /// Twice the area of each facet over its perimeter: the width of a long strip.
 std::vector<double> widths_of_facets(const BentSurface& surface) {
   const std::size_t count = surface.facet_of.empty() ? 0 : 1 + std::ranges::max(surface.facet_of);
@@ -58,15 +68,6 @@ std::vector<NarrowWedge> narrow_wedges(const BentSurface& surface, std::span<con
 }
 
 }  // namespace
-
-double cosine_of_turn(const BentSurface& surface, std::uint32_t edge) {
-  const auto around = surface.edges.around(edge);
-  const auto [a, b] = surface.edges.ends[edge];
-  const double cosine = dot(surface.normals[around[0]], surface.normals[around[1]]);
-  const bool alike =
-      plc::runs_along(surface.corners[around[0]], a, b) != plc::runs_along(surface.corners[around[1]], a, b);
-  return alike ? cosine : -cosine;
-}
 
 std::vector<double> turns_of_wide_bends(const BentSurface& surface, std::span<const char> is_feature,
                                         double deviation) {

@@ -19,9 +19,6 @@ struct BentSurface {
   const plc::EdgeTable& edges;
 };
 
-/// The cosine of the angle between the normals at an edge of two triangles, if both are turned to the same side.
-double cosine_of_turn(const BentSurface& surface, std::uint32_t edge);
-
 /// The part of an edge that remeshing must keep as a feature, although it is not sharp.
 struct WideBend {
   std::array<VertexId, 2> ends;

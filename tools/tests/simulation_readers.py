@@ -60,6 +60,40 @@ with dolfinx.io.XDMFFile(MPI.COMM_WORLD, "part.boundary.xdmf", "r", text) as fil
 print(json.dumps({kind: collections.Counter(map(int, tag.values)) for kind, tag in tags.items()}))
 """
 
+READ_BY_VTK = """
+import collections, json, vtk
+TETRAHEDRA, TRIANGLES = {"tetra": (10, 24)}, {"triangle": (5, 22)}  # linear and quadratic
+counts = {}
+for file, name, kinds in ("part.vtu", "region", TETRAHEDRA), ("part.boundary.vtu", "marker", TRIANGLES):
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(file)
+    reader.Update()
+    grid = reader.GetOutput()
+    values = grid.GetCellData().GetArray(name)
+    for kind, types in kinds.items():
+        counts[kind] = collections.Counter(int(values.GetValue(i)) for i in range(grid.GetNumberOfCells())
+                                           if grid.GetCellType(i) in types)
+print(json.dumps(counts))
+"""
+
+# A region of GetFEM holds elements, whose face has this number, and faces of elements, inside from both sides.
+READ_BY_GETFEM = """
+import collections, json
+import getfem
+NO_FACE = 65535
+getfem.util_warning_level(0)
+mesh = getfem.Mesh("import", "gmsh", "part.msh")
+counts = {"tetra": {}, "triangle": {}}
+for number in map(int, mesh.regions()):
+    members = mesh.region(number)
+    is_face = members[1] != NO_FACE
+    faces = {tuple(sorted(mesh.pid_in_faces(member.reshape(2, 1)))) for member in members.T[is_face]}
+    for kind, count in ("tetra", sum(~is_face)), ("triangle", len(faces)):
+        if count > 0:
+            counts[kind][number] = int(count)
+print(json.dumps(counts))
+"""
+
 
 def run(*command, folder, environment=None):
     return subprocess.run([str(word) for word in command], capture_output=True, text=True, errors="replace", cwd=folder,
@@ -136,3 +170,20 @@ def read_by_dolfinx(folder):
     if done.returncode != 0:
         raise SystemExit(f"dolfinx does not read the mesh:\n{done.stderr}")
     return json.loads(done.stdout)
+
+
+def read_by_vtk(folder):
+    if not (folder / "part.vtu").exists():
+        return None
+    done = run("/usr/bin/python3", "-c", READ_BY_VTK, folder=folder)
+    if done.returncode != 0:
+        raise SystemExit(f"VTK does not read the mesh:\n{done.stderr}")
+    return json.loads(done.stdout)
+
+
+def read_by_getfem(folder):
+    """GetFEM reads Gmsh's format 2, and says what it does not know with an error."""
+    if not (folder / "part.msh").exists():
+        return None
+    done = run("/usr/bin/python3", "-c", READ_BY_GETFEM, folder=folder)
+    return json.loads(done.stdout.splitlines()[-1]) if done.returncode == 0 else None

@@ -66,7 +66,10 @@ TEST(Improver, MakesMeshesOfAnyOriginBetterAndKeepsTheirSurface) {
 
 TEST(Improver, ReachesTheTargetWhereTheSurfaceAllows) {
   const InputPlc cube = plc_test::rotated(mesh_test::oblique, plc_test::gridded_cube(5));
-  const ImprovedMesh improved = improve_tet_mesh(unimproved(cube));
+  TetMesh partitioned = unimproved(cube);
+  partitioned.partitions.assign(partitioned.tetrahedra.size(), 1);
+  const ImprovedMesh improved = improve_tet_mesh(partitioned);
+  EXPECT_TRUE(improved.mesh.partitions.empty()) << "they were of other tetrahedra";
   EXPECT_GT(improved.counts.bad_cells, 0u);
   EXPECT_EQ(improved.counts.stop, ImproveStop::target);
   EXPECT_LE(worst_r(improved.mesh), 2.0 + 1e-9);

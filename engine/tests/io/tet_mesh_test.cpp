@@ -74,6 +74,20 @@ TEST(TetMeshFiles, AreTheSameOnAnyNumberOfThreads) {
   }
 }
 
+TEST(VtuFiles, KeepNamesOfMarkers) {
+  const Folder folder;
+  mesh::TetMesh mesh = small_mesh();
+  const std::map<int, std::string> names = {
+      {5, "inlet"}, {6, "a <b> & \"c\" 'd'"}, {-7, "\xC3\xA9t\xC3\xA9"}, {8, "</FieldData><AppendedData"}};
+  mesh.face_names = names;
+  io::write_tet_mesh(mesh, folder / "a.vtu");
+  EXPECT_EQ(io::read_tet_mesh(folder / "a.vtu").face_names, names);
+  EXPECT_EQ(io::read_tet_mesh(folder / "a.boundary.vtu").face_names, names);
+  mesh.face_names = {{5, "bell \x07"}, {6, "\xE9t\xE9"}};  // no XML may have these
+  io::write_tet_mesh(mesh, folder / "a.vtu");
+  EXPECT_EQ(io::read_tet_mesh(folder / "a.vtu").face_names, (std::map<int, std::string>{{5, "bell _"}, {6, "_t_"}}));
+}
+
 TEST(VtuFiles, AnotherMeshsBoundaryIsRefused) {
   const Folder folder;
   mesh::TetMesh other = small_mesh();
