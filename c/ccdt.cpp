@@ -38,13 +38,22 @@ struct LastError {
 };
 thread_local LastError last_error;
 
-ccdt_status fail(ccdt_status status, const std::string& text, const std::string& remedy = {}) {
-  last_error = {text, remedy, {}};
+/// Without memory for the texts, the status alone remains.
+void note(const char* text, const char* remedy, const Place& place) noexcept {
+  try {
+    last_error = {text, remedy, place};
+  } catch (const std::bad_alloc&) {
+    last_error = {};
+  }
+}
+
+ccdt_status fail(ccdt_status status, const char* text, const char* remedy = "") {
+  note(text, remedy, {});
   return status;
 }
 
 ccdt_status fail(const ccdt::Error& error) {
-  last_error = {error.what(), error.remedy(), error.place()};
+  note(error.what(), error.remedy().c_str(), error.place());
   if (dynamic_cast<const ccdt::LimitError*>(&error) != nullptr) return CCDT_LIMIT_REACHED;
   return dynamic_cast<const ccdt::MeshError*>(&error) != nullptr ? CCDT_NO_MESH : CCDT_BAD_INPUT;
 }
@@ -65,6 +74,8 @@ ccdt_status guarded(const Run& run) {
     return fail(CCDT_LIMIT_REACHED, "out of memory", "use longer edges, or a machine with more memory");
   } catch (const std::exception& error) {
     return fail(CCDT_BUG, error.what(), "please report this with the input");
+  } catch (...) {  // from a size function in C++
+    return fail(CCDT_BUG, "an exception of an unknown type", "end size functions without an exception");
   }
 }
 

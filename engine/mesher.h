@@ -27,8 +27,8 @@ void check_count(std::uint64_t tetrahedra, double most);
 /// Meshes a piecewise linear complex by conforming constrained Delaunay tetrahedralization (Yang, Yong, Sun 2005).
 ///
 /// \param input       facets in any units, which also apply to lengths and to the mesh; polygons that are not planar
-///                    are triangulated so that they bend least. With `SurfaceRule::remesh`, the surface of the mesh is
-///                    the one that `surface::remesh_surface` makes
+///                    are triangulated so that they bend least. With `remesh` and `automatic`, the surface of the mesh
+///                    is the one that `surface::remesh_surface` makes
 /// \param options     strategies, sizes and targets of improvement
 /// \param progress    called repeatedly; throw from it to cancel: the exception reaches the caller, and all memory is
 ///                    released

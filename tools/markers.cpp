@@ -14,6 +14,7 @@ void add_markers(CLI::App& verb, MarkerOptions& options) {
                   "with --markers by-angle: edges between facets whose normals differ by more than this, in degrees, "
                   "are sharp")
       ->check(number_between(1, 179))
+      ->needs("--markers")
       ->capture_default_str();
 }
 

@@ -38,7 +38,8 @@ void check_surface_options(const MeshCommand& command) {
   const bool changes = surface::makes_new_surface(command.options.surface);
   if (remesh && command.options.edge_length == 0 && !has_sizes)
     throw CLI::ValidationError("--surface remesh", "give the length of its edges with --edge-length");
-  if (command.options.tetrahedra > 0 && command.options.edge_length == 0 && command.mesher != "ccdt")
+  const bool has_length = command.options.edge_length > 0 || command.options.surface == SurfaceRule::automatic;
+  if (command.options.tetrahedra > 0 && !has_length && command.mesher != "ccdt")
     throw CLI::ValidationError("--tetrahedra", "give an edge length to begin with, by --edge-length");
   if (!changes && !command.repair && !command.surface_output.empty())
     throw CLI::ValidationError("--surface-output",

@@ -140,7 +140,7 @@ InputPlc prepared(const MeshCommand& command, InputPlc input, MeshOptions& optio
   record.costs[Stage::remesh] = surface.costs[Stage::remesh];
   record.input.facets = surface.facets;
   if (surface::makes_new_surface(options.surface))
-    record.surface_change = surface::measure_change(input, *surface.changed);
+    record.surface_change = surface::measure_change(input, *surface.changed, options.deviation);
   if (surface.changed) input = *std::move(surface.changed);
   record.input.nonplanar_facets = input.warped.count;
   record.input.largest_deviation = input.warped.largest_deviation;

@@ -62,7 +62,7 @@ struct MeshOptions {
   double deviation = 0;                             ///< see RemeshOptions
   double thin_tetrahedra = 2e6;                     ///< about how many thin places of a refined surface may cause
   double edge_length = 0;  ///< target edge length in the units of the input; 0: that of the surface or, if that
-                           ///< is refined, a fortieth of the diagonal of the bounding box. Remeshing needs one
+                           ///< is refined, a fortieth of the diagonal of the bounding box. `remesh` needs one
   double grading = 0.5;    ///< growth of the edge length per unit of distance from the surface; 0: uniform
   double flatness = usual_flatness;             ///< see PlcOptions
   double sphere_factor = 1;                     ///< see LatticeOptions

@@ -72,11 +72,12 @@ std::vector<MeshOption> make_table() {
        .of_remeshing = true},
       {.name = "deviation",
        .kind = NumberKind{.member = [](MeshOptions& o) -> double& { return o.deviation; }, .excludes_least = true},
-       .what = "the new surface stays within this distance of the input's, in units of the input; 0: any distance,\n"
-               "or with --surface auto a ten-thousandth of the diagonal of the bounding box",
-       .in_report = "in units of the input; 0: any; only with remesh and auto",
+       .what = "the new surface stays within this distance of the input's, in units of the input; default: any\n"
+               "distance, or with --surface auto a ten-thousandth of the diagonal of the bounding box",
+       .in_report = "in units of the input; 0: the default; only with remesh and auto",
        .needs = remeshing,
-       .of_remeshing = true},
+       .of_remeshing = true,
+       .usual = ""},
       {.name = "threads",
        .kind = CountKind{[](MeshOptions& o) -> unsigned& { return o.threads; }, 1, 1024},  // starting more takes longer
        .what = "largest number of threads; the result does not depend on it",
@@ -115,7 +116,7 @@ std::vector<MeshOption> make_table() {
       {.name = "edge-length",
        .kind = NumberKind{.member = [](MeshOptions& o) -> double& { return o.edge_length; }, .excludes_least = true},
        .what = "target edge length in units of the input; default: that of the surface,\n"
-               "or with --surface refine a fortieth of the diagonal of the bounding box",
+               "or with --surface refine and auto a fortieth of the diagonal of the bounding box",
        .in_report = "in units of the input; 0: that of the surface",
        .of_inside = true,
        .of_refinement = true,

@@ -53,7 +53,8 @@ auto reach_count(double wanted, const MeshWith& mesh_with, const CountOf& count_
   }
   throw LimitError("no sizes give about " + std::to_string(std::llround(wanted)) +
                        " tetrahedra: the nearest mesh has " + std::to_string(std::llround(wanted * std::exp(nearest))),
-                   {.file = file}, "ask for another number, or let the surface change with --surface refine or remesh");
+                   {.file = file},
+                   "ask for another number, or let the surface change with --surface refine, auto or remesh");
 }
 
 }  // namespace ccdt::steps

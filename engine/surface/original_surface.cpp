@@ -131,7 +131,7 @@ class SurfaceCutter {
         }
         for (const std::uint32_t t : edges_.around(e)) is_split[t] = 1;
         const double share = bend.from > 0 ? bend.from : bend.to;
-        const VertexId at = split_edge(e, share);
+        const VertexId at = split_edge(e, edges_.ends[e][0] == a ? share : 1 - share);
         if (bend.from > 0) {
           round_off({{a, at}, 0, 0, bend.longest});
           next.push_back({{at, b}, 0, 1 - (1 - bend.to) / (1 - share), bend.longest});
@@ -146,7 +146,8 @@ class SurfaceCutter {
 
   void round_off(const WideBend& bend) {
     const Point3 a = surface_.points[bend.ends[0]], b = surface_.points[bend.ends[1]];
-    const double pieces = std::ceil(length(b - a) / bend.longest);
+    constexpr double most_pieces = 1000;  // more would only cost memory
+    const double pieces = std::min(most_pieces, std::ceil(length(b - a) / bend.longest));
     for (double i = 0; i < pieces; ++i)
       surface_.rounded.push_back(
           {hull(box_of(a + (i / pieces) * (b - a)), box_of(a + ((i + 1) / pieces) * (b - a))), bend.longest});

@@ -315,6 +315,9 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
     for (int halving = 0;; ++halving) {
       note_bytes(bytes_of(original.points, original.triangles, original.wedges, mesh.vertices, mesh.face_is_frozen));
       plc::InputPlc result = to_plc(mesh, input);
+      if (options.most_tetrahedra > 0 && static_cast<double>(result.triangles.size()) > options.most_tetrahedra)
+        throw LimitError("the new surface alone has more triangles than tetrahedra are allowed", {.file = input.name},
+                         "allow more tetrahedra, or a larger deviation");
       const Defects defects = find_defects(input, result, plc, options);
       if (defects.places.empty()) return result;
       const std::vector<SizedPlace> places = thinned(defects.places, result, options);

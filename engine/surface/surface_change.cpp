@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/box.h"
+#include "engine/geometry/closest_point.h"
 #include "engine/geometry/surface_distance.h"
 #include "engine/plc/facet_triangles.h"
 #include "engine/plc/warped_facets.h"
@@ -34,14 +35,15 @@ int exponent_of(const plc::InputPlc& input) {
 
 }  // namespace
 
-SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& after) {
+SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& after, double deviation) {
   const int exponent = exponent_of(before);
   const double scale = std::ldexp(1, -exponent);
   const std::vector<TrianglePoints> old_ones = scaled_triangles(before, scale),
                                     new_ones = scaled_triangles(after, scale);
   SurfaceChange change;
   if (old_ones.empty() || new_ones.empty()) return change;
-  const DistancePrecision precision{.absolute = 1e-6};
+  DistancePrecision precision{.absolute = 1e-6};
+  if (deviation > 0) precision.absolute = std::min(precision.absolute, 0.5 * scale * deviation);
   const FarthestPoint to = farthest_point(new_ones, NearestTriangle(old_ones), precision);
   const FarthestPoint from = farthest_point(old_ones, NearestTriangle(new_ones), precision);
   change.to_input = std::ldexp(to.bound, exponent);
@@ -58,8 +60,11 @@ std::vector<Point3> points_beyond(const plc::InputPlc& before, const plc::InputP
                                     new_ones = scaled_triangles(after, scale);
   if (old_ones.empty() || new_ones.empty()) return {};
   std::vector<Point3> points = ccdt::points_beyond(new_ones, NearestTriangle(old_ones), scale * distance);
-  const std::vector<Point3> others = ccdt::points_beyond(old_ones, NearestTriangle(new_ones), scale * distance);
-  points.insert(points.end(), others.begin(), others.end());
+  const NearestTriangle nearest(new_ones);
+  for (const Point3& p : ccdt::points_beyond(old_ones, nearest, scale * distance)) {
+    const TrianglePoints& t = nearest[nearest.nearest(p).number];
+    points.push_back(weighted_point(closest_on_triangle(p, t), t));
+  }
   for (Point3& p : points) p = (1 / scale) * p;
   return points;
 }

@@ -200,7 +200,9 @@ void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
   }
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
   limit_count(m);
-  if (is_remeshed) limit_by_deviation(m);
+  if (!is_remeshed || m.deviation == HUGE_VAL) return;
+  limit_by_deviation(m);  // which costs what it costs
+  for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
 }
 
 }  // namespace ccdt::surface

@@ -14,14 +14,14 @@ double edge_length(const BentSurface& surface, std::uint32_t e) {
   return length(surface.points[b] - surface.points[a]);
 }
 
-/// The cosine of the angle between the normals at an edge of two triangles, if both are turned to the same side.
-double cosine_of_turn(const BentSurface& surface, std::uint32_t edge) {
+/// The angle between the normals at an edge of two triangles, if both are turned to the same side.
+double turn_at(const BentSurface& surface, std::uint32_t edge) {
   const auto around = surface.edges.around(edge);
   const auto [a, b] = surface.edges.ends[edge];
-  const double cosine = dot(surface.normals[around[0]], surface.normals[around[1]]);
   const bool alike =
       plc::runs_along(surface.corners[around[0]], a, b) != plc::runs_along(surface.corners[around[1]], a, b);
-  return alike ? cosine : -cosine;
+  const Point3 one = surface.normals[around[0]], other = (alike ? 1 : -1) * surface.normals[around[1]];
+  return 2 * portable::angle_of(length(one + other), length(one - other));
 }
 
 /// Twice the area of each facet over its perimeter: the width of a long strip.
@@ -76,8 +76,9 @@ std::vector<double> turns_of_wide_bends(const BentSurface& surface, std::span<co
   for (std::uint32_t e = 0; e < surface.edges.size(); ++e) {
     if (is_feature[e]) continue;
     const auto around = surface.edges.around(e);
+    if (surface.facet_of[around[0]] == surface.facet_of[around[1]]) continue;
     const double width = std::min(widths[surface.facet_of[around[0]]], widths[surface.facet_of[around[1]]]);
-    const double turn = portable::arc_cosine(std::clamp(cosine_of_turn(surface, e), -1.0, 1.0));
+    const double turn = turn_at(surface, e);
     if (width * turn > deviation) turns[e] = turn;
   }
   return turns;

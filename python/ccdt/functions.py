@@ -10,8 +10,8 @@ from .tet_mesh import Mesh
 
 MESH_OPTIONS = [*TABLE, *EXTRA]
 IMPROVE_OPTIONS = ["improve", "objective", "target_dihedral", "target_r", "improve_time", "threads", "progress"]
-REMESH_OPTIONS = ["sharp_angle", "flatness", "sizes", "size_field", "curvature_angle", "elements_through",
-                  "size_function", "progress"]
+REMESH_OPTIONS = ["sharp_angle", "deviation", "flatness", "sizes", "size_field", "curvature_angle",
+                  "elements_through", "size_function", "progress"]
 
 
 @takes_options(*MESH_OPTIONS)

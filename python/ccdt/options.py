@@ -44,7 +44,8 @@ def engine_options(keywords, names):
     :raises InputError: for a value that the option cannot have
     """
     options = _engine.Options()
-    for name, value in keywords.items():
+    # A number that is given replaces that of a size field.
+    for name, value in sorted(keywords.items(), key=lambda item: item[0] != "size_field"):
         if name not in names:
             near = difflib.get_close_matches(name, names, 1)
             raise TypeError(f"there is no option {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))

@@ -55,8 +55,7 @@ sizes::SizeFunction size_function_of(py::object function) {
     // A copy, which the function may keep.
     Array<double> places({points.size(), std::size_t{3}});
     std::copy(points.begin(), points.end(), reinterpret_cast<Point3*>(places.mutable_data()));
-    const auto answer = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure((*function)(places));
-    if (!answer) throw py::error_already_set();
+    const py::array_t<double, py::array::c_style | py::array::forcecast> answer((*function)(places));
     if (answer.ndim() != 1 || answer.shape(0) != static_cast<py::ssize_t>(lengths.size()))
       throw py::value_error("the size function must return one length for each of " + std::to_string(points.size()) +
                             " points");

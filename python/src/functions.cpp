@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/include/ccdt/ccdt.h"
+#include "engine/plc/warped_facets.h"
 #include "python/src/bindings.h"
 #include "python/src/callbacks.h"
 
@@ -65,13 +66,10 @@ py::tuple improve(TetMesh mesh, const MeshOptions& options, py::object progress)
 
 InputPlc remesh(const InputPlc& input, const MeshOptions& options, py::object progress) {
   const Progress reporter = progress_of(std::move(progress));
-  RemeshOptions chosen;
-  chosen.edge_length = options.edge_length;
-  chosen.sharp_angle = options.sharp_angle;
-  chosen.flatness = options.flatness;
-  chosen.local = &options.local;
-  chosen.background = &options.background;
-  return without_gil([&] { return remesh_surface(input, chosen, reporter); });
+  return without_gil([&] {
+    const auto flat = plc::triangulate_warped_facets(input);
+    return remesh_surface(flat ? *flat : input, remesh_options_of(options), reporter);
+  });
 }
 
 py::list list_of(const std::vector<Place>& places) {
