@@ -72,7 +72,7 @@ TEST_F(Program, RemeshingNeedsAnEdgeLengthAndANewSurfaceNeedsRemeshing) {
   EXPECT_NE(no_length.err.find("--edge-length"), std::string::npos) << no_length.err;
   const Outcome no_surface = run("mesh cube.off -o a.vtu --surface-output b.off");
   EXPECT_EQ(no_surface.exit_code, 2);
-  EXPECT_NE(no_surface.err.find("--surface remesh"), std::string::npos) << no_surface.err;
+  EXPECT_NE(no_surface.err.find("--surface auto"), std::string::npos) << no_surface.err;
   EXPECT_EQ(file_count(), 1u);
 }
 
