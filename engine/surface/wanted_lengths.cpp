@@ -55,8 +55,11 @@ void limit_by_deviation(WorkingMesh& m) {
   if (m.deviation == HUGE_VAL) return;
   for (const EdgeHandle e : m.mesh.edges()) {
     const auto [a, b] = m.ends(e);
-    const double turn = length(m.at(b).normal - m.at(a).normal);
-    if (m.is_flat(a) || m.is_tip(a) || m.is_tip(b) || turn == 0) continue;
+    // At a feature, the nearest facet may be one beyond it; elsewhere, interpolated normals turn even within a facet.
+    if (m.at(a).knot != none || m.at(b).knot != none || m.is_flat(a)) continue;
+    const auto& normals = m.original.triangle_normals;
+    const double turn = length(normals[m.at(b).near] - normals[m.at(a).near]);
+    if (turn == 0) continue;
     const double most = std::sqrt(6 * m.deviation * m.edge_length(a, b) / turn);
     for (const VertexHandle v : {a, b}) limit(wanted_at(m, v), most, 4 * m.deviation);
   }

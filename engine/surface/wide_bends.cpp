@@ -98,10 +98,12 @@ std::vector<WideBend> trim_in_narrow_wedges(const BentSurface& surface,
   }
   std::vector<WideBend> bends;
   constexpr double least_share = 0.2;  // of an edge: less is not worth a new vertex
+  constexpr double least_cut = 1e-5;   // of an edge: less would need many tiny triangles
   for (std::uint32_t e = 0; e < turns.size(); ++e) {
     if (turns[e] == 0) continue;
     const double size = edge_length(surface, e);
-    double from = cuts[e][0] / size, to = 1 - cuts[e][1] / size;
+    const auto share_of = [&](double cut) { return cut < least_cut * size ? 0 : cut / size; };
+    double from = share_of(cuts[e][0]), to = 1 - share_of(cuts[e][1]);
     if (to - from < least_share) from = 1, to = 0;
     bends.push_back({surface.edges.ends[e], from, to, 4 * deviation / turns[e]});
   }
