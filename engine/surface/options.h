@@ -22,8 +22,8 @@ constexpr auto names_of(SurfaceRule) {
       {{SurfaceRule::keep, "keep", "keep the triangles of the input"},
        {SurfaceRule::remesh, "remesh", "make new triangles of --edge-length; sharp edges stay"},
        {SurfaceRule::automatic, "auto",
-        "make new triangles of --edge-length that stay within --deviation, by default a ten-thousandth of\n"
-        "the diagonal of the bounding box: keep what is wider, round off what is narrower"},
+        "make new triangles of --edge-length within --deviation of the old ones, by default a ten-thousandth\n"
+        "of the diagonal of the bounding box; needles of fillets are merged"},
        {SurfaceRule::refine, "refine",
         "make new triangles of --edge-length on the same flat facets and straight segments"}});
 }

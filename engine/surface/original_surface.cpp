@@ -158,15 +158,11 @@ class SurfaceCutter {
     surface_.triangle_normals[t] = -1 * surface_.triangle_normals[t];
   }
 
-  bool oriented_alike(std::uint32_t e) const {
-    const auto around = edges_.around(e);
-    const auto [a, b] = edges_.ends[e];
-    return plc::runs_along(corners_[around[0]], a, b) != plc::runs_along(corners_[around[1]], a, b);
-  }
-
   BentSurface bent_surface() const {
     return {surface_.points, corners_, surface_.triangle_normals, surface_.facet_of, edges_};
   }
+
+  bool oriented_alike(std::uint32_t e) const { return surface::oriented_alike(bent_surface(), e); }
 
   bool is_sharp(std::uint32_t e) const {
     const auto around = edges_.around(e);

@@ -14,6 +14,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/geometry/integer_points.h"
+#include "engine/geometry/surface_distance.h"
 #include "engine/plc/build_plc.h"
 #include "engine/plc/check_input.h"
 #include "engine/plc/connect_parts.h"
@@ -39,9 +40,6 @@ constexpr int most_attempts = 9;
 
 // The edge length is halved within this many edge lengths of the place where triangles cross.
 constexpr double halved_around = 1.6;
-
-// `measure_change` reports a bound.
-constexpr double bound_over_distance = 1.03;
 
 void check_options(const plc::InputPlc& input, const RemeshOptions& options) {
   const Place place{.file = input.name};
@@ -208,7 +206,8 @@ Defects find_defects(const plc::InputPlc& input, const plc::InputPlc& result, co
     const plc::Plc after = plc::build_plc(result, {options.flatness});
     if (regions_of(after) == regions_of(before)) {
       if (options.deviation == 0) return {};
-      return {points_beyond(input, result, options.deviation / bound_over_distance),
+      // `measure_change` reports a bound, which is larger.
+      return {points_beyond(input, result, options.deviation / DistancePrecision().relative),
               "the new surface is too far from the old one"};
     }
     defects.words = "the new surface divides space differently from the old one";
@@ -223,15 +222,13 @@ Defects find_defects(const plc::InputPlc& input, const plc::InputPlc& result, co
 }
 
 /// Merges places near each other into one, with the longest edge of the triangles there.
-std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface,
-                                const RemeshOptions& options) {
-  const double usual = options.edge_length, tolerance = std::max(1e-6 * usual, options.deviation);
+std::vector<SizedPlace> thinned(const std::vector<Point3>& places, const plc::InputPlc& surface, double usual) {
   const auto corners = [&](std::size_t t) {
     const auto& [a, b, c] = surface.triangles[t];
     return std::array<Point3, 3>{surface.vertices[a], surface.vertices[b], surface.vertices[c]};
   };
   const BoxTree tree(std::views::iota(std::size_t{0}, surface.triangles.size()),
-                     [&](std::size_t t) { return expanded(bounding_box(corners(t)), tolerance); });
+                     [&](std::size_t t) { return expanded(bounding_box(corners(t)), 1e-6 * usual); });
   std::vector<SizedPlace> kept;
   for (const Point3& p : places) {
     double edge = 0;
@@ -320,7 +317,7 @@ plc::InputPlc remesh(const plc::InputPlc& input, const RemeshOptions& options, c
                          "allow more tetrahedra, or a larger deviation");
       const Defects defects = find_defects(input, result, plc, options);
       if (defects.places.empty()) return result;
-      const std::vector<SizedPlace> places = thinned(defects.places, result, options);
+      const std::vector<SizedPlace> places = thinned(defects.places, result, options.edge_length);
       if (halving == most_halvings) {
         if (attempt == most_attempts) throw_not_remeshed(input, defects, options.edge_length);
         ++work_done.remeshing_halvings;

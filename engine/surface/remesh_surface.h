@@ -23,6 +23,9 @@ namespace ccdt::surface {
 /// at sharp corners and where the surface is rough. If triangles of the result still cross, the edges there become
 /// shorter. If that does not help, the old triangles stay there. The result always builds (`build_plc`).
 ///
+/// With a deviation, bends between wide facets are kept as well (`turns_of_wide_bends`), edges are as short as the
+/// curvature wants, whatever that costs, and places that are still too far away are treated like crossings.
+///
 /// \return  triangles and segments only; vertices are numbered anew
 /// \throw InputError  the input is not a valid PLC, or an option is out of range
 /// \throw LimitError  the new surface would have too many triangles

@@ -61,7 +61,7 @@ void limit_by_deviation(WorkingMesh& m) {
     const double turn = length(normals[m.at(b).near] - normals[m.at(a).near]);
     if (turn == 0) continue;
     const double most = std::sqrt(6 * m.deviation * m.edge_length(a, b) / turn);
-    for (const VertexHandle v : {a, b}) limit(wanted_at(m, v), most, 4 * m.deviation);
+    for (const VertexHandle v : {a, b}) limit(m.at(v).wanted, most, 4 * m.deviation);
   }
 }
 
@@ -203,9 +203,7 @@ void find_wanted_lengths(WorkingMesh& m, bool is_remeshed) {
   }
   for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
   limit_count(m);
-  if (!is_remeshed || m.deviation == HUGE_VAL) return;
-  limit_by_deviation(m);  // which costs what it costs
-  for (const VertexHandle v : m.mesh.vertices()) m.at(v).wanted = wanted_at(m, v);
+  if (is_remeshed) limit_by_deviation(m);  // it must hold, however many triangles that takes
 }
 
 }  // namespace ccdt::surface

@@ -20,8 +20,9 @@ inline constexpr double most_deviation_of_improved = 0.055;
 /// need edges that stay near them (`most_deviation`), and edges fit the thickness of solids and of gaps between curved
 /// sheets.
 ///
-/// \param plc    that the surface was cut from
-/// \param usual  the edge length wanted where the shape does not need less
+/// \param plc        that the surface was cut from
+/// \param usual      the edge length wanted where the shape does not need less
+/// \param deviation  edges are at most this far from features; infinite: any
 sizes::SizeField lengths_of_shape(const plc::Plc& plc, const OriginalSurface& surface, const FeatureCurves& features,
                                   double usual, double deviation);
 

@@ -17,10 +17,8 @@ double edge_length(const BentSurface& surface, std::uint32_t e) {
 /// The angle between the normals at an edge of two triangles, if both are turned to the same side.
 double turn_at(const BentSurface& surface, std::uint32_t edge) {
   const auto around = surface.edges.around(edge);
-  const auto [a, b] = surface.edges.ends[edge];
-  const bool alike =
-      plc::runs_along(surface.corners[around[0]], a, b) != plc::runs_along(surface.corners[around[1]], a, b);
-  const Point3 one = surface.normals[around[0]], other = (alike ? 1 : -1) * surface.normals[around[1]];
+  const double sign = oriented_alike(surface, edge) ? 1 : -1;
+  const Point3 one = surface.normals[around[0]], other = sign * surface.normals[around[1]];
   return 2 * portable::angle_of(length(one + other), length(one - other));
 }
 
@@ -68,6 +66,12 @@ std::vector<NarrowWedge> narrow_wedges(const BentSurface& surface, std::span<con
 }
 
 }  // namespace
+
+bool oriented_alike(const BentSurface& surface, std::uint32_t edge) {
+  const auto around = surface.edges.around(edge);
+  const auto [a, b] = surface.edges.ends[edge];
+  return plc::runs_along(surface.corners[around[0]], a, b) != plc::runs_along(surface.corners[around[1]], a, b);
+}
 
 std::vector<double> turns_of_wide_bends(const BentSurface& surface, std::span<const char> is_feature,
                                         double deviation) {

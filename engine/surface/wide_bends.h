@@ -19,6 +19,9 @@ struct BentSurface {
   const plc::EdgeTable& edges;
 };
 
+/// Do the two triangles at an edge run through it in opposite directions?
+bool oriented_alike(const BentSurface& surface, std::uint32_t edge);
+
 /// The part of an edge that remeshing must keep as a feature, although it is not sharp.
 struct WideBend {
   std::array<VertexId, 2> ends;

@@ -252,4 +252,19 @@ inline plc::InputPlc rough_plate(double height, std::mt19937& random) {
   });
 }
 
+/// Two cones on one circle, or one cone if a height is 0. Their sides run from the rim to the tips.
+inline plc::InputPlc double_cone(int sides, double up, double down) {
+  plc::InputPlc plc;
+  const auto n = static_cast<std::uint32_t>(sides);
+  for (int i = 0; i < sides; ++i)
+    plc.vertices.push_back({std::cos(2 * std::acos(-1.0) * i / sides), std::sin(2 * std::acos(-1.0) * i / sides), 0});
+  plc.vertices.push_back({0, 0, up});
+  plc.vertices.push_back({0, 0, -down});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    plc.triangles.push_back({i, (i + 1) % n, n});
+    plc.triangles.push_back({(i + 1) % n, i, n + 1});
+  }
+  return plc;
+}
+
 }  // namespace ccdt::mesh_test

@@ -12,6 +12,7 @@
 #include "engine/plc/build_plc.h"
 #include "engine/surface/remesh_surface.h"
 #include "engine/surface/surface_change.h"
+#include "engine/tests/shared/mesh_test_solids.h"
 #include "engine/tests/surface/remesh_measures.h"
 
 // Remeshing within a distance from the old surface.
@@ -19,6 +20,7 @@
 namespace ccdt {
 namespace {
 
+using mesh_test::double_cone;
 using surface::measure_change;
 using surface::remesh_surface;
 
@@ -33,20 +35,6 @@ InputPlc lens_with_ridge() {
     const std::uint32_t next = (i + 1) % 4;
     plc.triangles.push_back({i, next, next + 4});
     plc.triangles.push_back({i, next + 4, i + 4});
-  }
-  return plc;
-}
-
-InputPlc bipyramid(int sides) {
-  InputPlc plc;
-  const auto n = static_cast<std::uint32_t>(sides);
-  for (int i = 0; i < sides; ++i)
-    plc.vertices.push_back({std::cos(2 * std::acos(-1.0) * i / sides), std::sin(2 * std::acos(-1.0) * i / sides), 0});
-  plc.vertices.push_back({0, 0, 1.5});
-  plc.vertices.push_back({0, 0, -1.5});
-  for (std::uint32_t i = 0; i < n; ++i) {
-    plc.triangles.push_back({i, (i + 1) % n, n});
-    plc.triangles.push_back({(i + 1) % n, i, n + 1});
   }
   return plc;
 }
@@ -67,7 +55,7 @@ TEST(Deviation, IsKeptByTipsOfManyNeedles) {
   for (const int sides : {12, 48, 200})
     for (const double deviation : {1e-2, 1e-3}) {
       SCOPED_TRACE(std::to_string(sides) + " sides, " + std::to_string(deviation));
-      const InputPlc before = bipyramid(sides),
+      const InputPlc before = double_cone(sides, 1.5, 1.5),
                      after = remesh_surface(before, {.edge_length = 0.2, .deviation = deviation});
       EXPECT_LE(measure_change(before, after, deviation).distance, deviation);
       EXPECT_GE(remesh_test::smallest_angle_of_99_percent(after), 20);
@@ -76,7 +64,8 @@ TEST(Deviation, IsKeptByTipsOfManyNeedles) {
 }
 
 TEST(Deviation, IsABoundEvenIfItIsTiny) {
-  const InputPlc before = bipyramid(24), after = remesh_surface(before, {.edge_length = 0.4, .deviation = 1e-8});
+  const InputPlc before = double_cone(24, 1.5, 1.5),
+                 after = remesh_surface(before, {.edge_length = 0.4, .deviation = 1e-8});
   EXPECT_LE(measure_change(before, after, 1e-8).distance, 1e-8);
 }
 

@@ -192,21 +192,6 @@ TEST(Remeshing, RimOfACylinderStaysRound) {
   }
 }
 
-/// A cone, whose sides run from the rim to the tip.
-InputPlc cone(int sides, double height) {
-  InputPlc plc;
-  const auto n = static_cast<std::uint32_t>(sides);
-  for (int i = 0; i < sides; ++i)
-    plc.vertices.push_back({std::cos(2 * std::acos(-1.0) * i / sides), std::sin(2 * std::acos(-1.0) * i / sides), 0});
-  plc.vertices.push_back({0, 0, height});
-  plc.vertices.push_back({0, 0, 0});
-  for (std::uint32_t i = 0; i < n; ++i) {
-    plc.triangles.push_back({i, (i + 1) % n, n});
-    plc.triangles.push_back({(i + 1) % n, i, n + 1});
-  }
-  return plc;
-}
-
 TEST(Remeshing, ConeKeepsItsTipAndGetsEvenTriangles) {
   constexpr double h = 0.1;
   for (const double height : {0.9, 2.0, 4.0})
@@ -214,7 +199,7 @@ TEST(Remeshing, ConeKeepsItsTipAndGetsEvenTriangles) {
       for (const double sharp_angle : {30, 60}) {
         if (is_sanitized && sides > 32) continue;
         SCOPED_TRACE("height " + std::to_string(height) + ", " + std::to_string(sides) + " sides");
-        const InputPlc before = cone(sides, height), after = remeshed(before, h, sharp_angle);
+        const InputPlc before = double_cone(sides, height, 0), after = remeshed(before, h, sharp_angle);
         EXPECT_NE(std::ranges::find(after.vertices, Point3{0, 0, height}), after.vertices.end());
         EXPECT_NEAR(inside_volume(plc::build_plc(after)), inside_volume(plc::build_plc(before)), 0.01 * height);
         EXPECT_LE(after.triangles.size(), 1.5 * (areas(before)[0] / (std::sqrt(3) / 4 * h * h)));
