@@ -7,6 +7,7 @@
 #include "engine/base/parallel.h"
 #include "engine/folds/protect_facets.h"
 #include "engine/mesh/assemble_mesh.h"
+#include "engine/mesh/check_sides.h"
 #include "engine/mesh/collect_tetrahedra.h"
 #include "engine/options/check_options.h"
 #include "engine/plc/check_input.h"
@@ -49,6 +50,7 @@ Tetrahedralization tetrahedralize(const InputPlc& input, bool flattens, Protecte
 /// The vertices, regions and counts of the mesh, in the units of the input.
 MeshResult finish(const ProtectedDomain& domain, Tetrahedralization t, Run& run) {
   const plc::Plc& plc = domain.plc;
+  mesh::check_sides(plc, t.points, t.mesh.faces);
   mesh::drop_foreign_edges(plc, domain.chains, t.mesh);
   t.mesh.vertices = run.measured(Stage::finish, [&] { return mesh::to_world(plc, t.points, t.mesh.tetrahedra); });
   if (const auto attribute = mesh::common_attribute(plc.regions))

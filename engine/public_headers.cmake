@@ -24,6 +24,7 @@ set(public_headers
   mesh/tet_mesh.h
   mesher.h
   plc/input.h
+  plc/periodicity.h
   protection/options.h
   repair/certificate.h
   repair/faults.h

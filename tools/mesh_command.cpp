@@ -46,6 +46,8 @@ void check_surface_options(const MeshCommand& command) {
                                "there is no new surface without --surface auto, remesh or --repair");
   if (!changes && command.options.deviation > 0)
     throw CLI::ValidationError("--deviation", "only --surface auto and remesh make a surface that deviates");
+  if (command.options.periodic != Periodicity::none && (changes || command.mesher != "ccdt"))
+    throw CLI::ValidationError("--periodic", "only ccdt makes equal sides, with --surface keep or refine");
   if (command.options.surface == SurfaceRule::refine && command.mesher != "ccdt")
     throw CLI::ValidationError("--surface refine",
                                "only ccdt refines a surface; use --surface auto or remesh for other meshers");

@@ -91,6 +91,8 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
                    "units, and encloses the same parts")
       ->check(positive_number())
       ->excludes(verb->get_option("--surface"));
+  add_choice(*verb, "--periodic", command->options.periodic,
+             "axes along which opposite sides of the mesh must have the same faces");
   add_choice(*verb, "--boundary", command->options.boundary, "where the vertices of the input must be");
   add_choice(*verb, "--lists", command->options.lists, "what the mesh must list");
   add_threads(*verb, command->threads);

@@ -18,6 +18,7 @@
 #include "bench/verify/findings.h"
 #include "bench/verify/listed_edges.h"
 #include "bench/verify/listed_faces.h"
+#include "bench/verify/periodic_sides.h"
 #include "engine/base/parallel.h"
 #include "engine/base/shared_progress.h"
 #include "engine/plc/gather_parts.h"
@@ -428,6 +429,10 @@ Verification verify_as_it_is(const plc::InputPlc& input, const mesh::TetMesh& me
   checks.push_back(check_distinct_vertices(topology));
   checks.push_back(check_used_vertices(topology));
   checks.push_back(check_listed_faces(topology));
+  if (options.periodic != plc::Periodicity::none) {
+    const double rounding = largest_rounding(input, find_tolerances(input, options.flatness));
+    checks.push_back(check_periodic_sides(topology, options.periodic, 2 * rounding));
+  }
   if (options.surface == VerifyOptions::Surface::own)
     check_own_surface(input, topology, options, progress, result);
   else

@@ -11,6 +11,7 @@
 #include "engine/base/progress.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
+#include "engine/plc/periodicity.h"
 
 namespace ccdt::verify {
 
@@ -30,6 +31,8 @@ struct VerifyOptions {
   enum class Surface { same, own } surface = Surface::same;
   /// How far the mesher's own surface may be from that of the input, in units of the input; see `check_within`.
   std::optional<double> within = {};
+  /// Along which axes must opposite sides of the mesh be equal?
+  plc::Periodicity periodic = plc::Periodicity::none;
   /// What must the mesh list? `all`: the faces on facets, and the edges on segments with markers. `tetrahedra`: these
   /// alone. Other elements that it lists must be right, and complete.
   enum class Lists { all, tetrahedra } lists = Lists::all;

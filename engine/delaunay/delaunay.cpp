@@ -35,8 +35,14 @@ void put_simplex_first(std::span<const Point3> points, std::vector<std::uint32_t
 }
 
 /// The indices of the points in the order of insertion.
-std::vector<std::uint32_t> insertion_order(std::span<const Point3> points) {
+std::vector<std::uint32_t> insertion_order(std::span<const Point3> points, std::span<const std::uint32_t> first = {}) {
   std::vector<std::uint32_t> order = hilbert_order(points);
+  if (!first.empty()) {
+    std::vector<bool> is_first(points.size(), false);
+    for (const std::uint32_t i : first) is_first[i] = true;
+    std::erase_if(order, [&](std::uint32_t i) { return is_first[i]; });
+    order.insert(order.begin(), first.begin(), first.end());
+  }
   put_simplex_first(points, order);
   return order;
 }
@@ -93,8 +99,9 @@ std::vector<std::uint32_t> insertion_ranks(std::span<const Point3> points) {
   return ranks;
 }
 
-Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress) {
-  const std::vector<std::uint32_t> order = insertion_order(points);
+Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress,
+                        std::span<const std::uint32_t> first) {
+  const std::vector<std::uint32_t> order = insertion_order(points, first);
   Delaunay d;
   d.vertices.resize(points.size());
   d.cell_at.resize(points.size());
@@ -102,6 +109,8 @@ Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress
     d.vertices[i] = {points[order[i]], static_cast<std::uint32_t>(i)};
     d.cell_at[i] = none;
   });
+  // The orientation of the first tetrahedron may have swapped the first two.
+  if (!first.empty() && order[0] != first[0]) std::swap(d.vertices[0].rank, d.vertices[1].rank);
   make_first_cells(d);
   std::vector<std::uint32_t> others(d.vertices.size() - 4);
   std::iota(others.begin(), others.end(), 4u);

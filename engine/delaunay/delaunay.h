@@ -114,8 +114,11 @@ struct Delaunay {
 /// Hilbert curve.
 ///
 /// \param points  grid units, distinct
+/// \param first   indices of points whose ranks are the least, in this order, except for the four that insertion begins
+///                with: the first ones that are not in one plane
 /// \throw MeshError  fewer than four points, or all in one plane; carries no place
-Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress = {});
+Delaunay build_delaunay(std::span<const Point3> points, const Progress& progress = {},
+                        std::span<const std::uint32_t> first = {});
 
 /// The ranks, by id, that `build_delaunay` assigns: the order of its insertions.
 ///

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "engine/base/progress.h"
 #include "engine/delaunay/delaunay.h"
@@ -44,6 +45,17 @@ class SurfaceProtector {
   ///
   /// \return  false if nothing changes
   bool protect_folds();
+
+  /// The PLC without divisions.
+  const plc::Plc& undivided() const { return divider_ ? undivided_ : plc_; }
+
+  /// Starts again with more vertices in the chains; `protect` must be called again.
+  ///
+  /// \param delaunay, chains  as for the constructor, of `undivided`
+  void restart(delaunay::Delaunay delaunay, protection::SegmentChains chains) {
+    delaunay_ = std::move(delaunay);
+    chains_ = std::move(chains);
+  }
 
   /// Is the surface protected with all vertices? If not, facets have been divided, and `protect` must be called again.
   ///

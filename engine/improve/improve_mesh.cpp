@@ -17,6 +17,7 @@
 #include "engine/base/sort_in_runs.h"
 #include "engine/improve/find_freedom.h"
 #include "engine/improve/find_step.h"
+#include "engine/improve/keep_sides.h"
 #include "engine/improve/split_large_cells.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/steiner/remove_steiner_vertices.h"
@@ -415,6 +416,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   // The cells are the tetrahedra. In large meshes there is no memory for both.
   release(mesh.tetrahedra);
   const std::vector<VolumeLimit> limits = volume_limits(input.plc, !mesh.regions.empty());
+  keep_faces_on_sides(input.plc, points, mesh.faces, input.facet_of_face);
   CellComplex complex(std::move(mesh.faces), mesh.edges, std::move(input.cells), std::move(mesh.regions),
                       std::move(points), std::move(input.facet_of_face),
                       static_cast<std::uint32_t>(input.first_interior), goal_of(options));
@@ -429,6 +431,7 @@ ImproveCounts improve_mesh(ImproveInput input, const ImproveOptions& options, st
   if (options.improvement != Improvement::none && (all_slide || input.first_sliding < input.first_interior)) {
     freedom = find_freedom(input.plc, input.chains, complex.vertex_count());
     for (std::size_t v = 0; !all_slide && v < input.first_sliding; ++v) freedom[v].dimensions = 0;
+    keep_vertices_on_sides(input.plc, complex, freedom);
   }
   // First, so that improvement mends the shapes; but if large triangles were kept, most attempts would fail.
   // And last, since improvement looks at shapes alone.

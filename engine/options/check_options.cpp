@@ -23,7 +23,7 @@ void check_strategies(const MeshOptions& options) {
       throw InputError("a strategy is not one of its enumeration", {}, "use the named values");
   };
   check(options.lattice, options.protection, options.locator, options.delaunay, options.visibility, options.surface,
-        improvement_of(options), options.improve.objective, options.improve.boundary, options.improve.steiner);
+        options.periodic, improvement_of(options), options.improve.objective, options.improve.boundary, options.improve.steiner);
 }
 
 }  // namespace
@@ -31,6 +31,8 @@ void check_strategies(const MeshOptions& options) {
 void check_options(const MeshOptions& options) {
   check_numbers(options);
   check_strategies(options);
+  if (options.periodic != Periodicity::none && makes_new_surface(options.surface))
+    throw InputError("a new surface is not periodic", {}, "use --surface keep or refine with --periodic");
   sizes::check_background(options.background);
   sizes::check_local_sizes(options.local);
   if (!options.local.empty() && options.grading == 0)

@@ -16,6 +16,7 @@
 #include "engine/locate/options.h"
 #include "engine/mesh/tet_mesh.h"
 #include "engine/plc/input.h"
+#include "engine/plc/periodicity.h"
 #include "engine/protection/options.h"
 #include "engine/sizes/background_sizes.h"
 #include "engine/sizes/local_sizes.h"
@@ -37,6 +38,7 @@ using lattice::Lattice;
 using locate::LocatorKind;
 using mesh::TetMesh;
 using plc::InputPlc;
+using plc::Periodicity;
 using plc::PolygonFacet;
 using protection::Protection;
 using sizes::BackgroundSizes;
@@ -74,6 +76,8 @@ struct MeshOptions {
   BackgroundSizes background = {};
   LocalSizes local = {};       ///< where edges should be shorter; needs a grading
   double surface_factor = 1;   ///< of the edge lengths of the surface, where these are the target for the inside
+  Periodicity periodic = Periodicity::none;  ///< opposite sides of the box of the input, which must be equal, get the
+                                             ///< same vertices and triangles; not with a new surface
   double tetrahedra = 0;       ///< scale all sizes until the mesh has this many, within five percent; 0: do not
   double most_tetrahedra = 0;  ///< refuse to make more, if possible before they are made; 0: any number
 };

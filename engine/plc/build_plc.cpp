@@ -10,6 +10,7 @@
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
 #include "engine/plc/find_regions.h"
+#include "engine/plc/find_repeats.h"
 #include "engine/plc/gather_parts.h"
 #include "engine/plc/input_faults.h"
 
@@ -195,6 +196,8 @@ Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& op
   Examined examined = examine_parts(std::move(gathered), options, most_overlaps, examiner);
   report(progress, stage, 3, steps_of_build);
   Plc plc = finish_plc(input, std::move(examined));
+  plc.periodicity = options.periodicity;
+  find_repeats(plc);  // throws
   report(progress, stage, steps_of_build, steps_of_build);
   return plc;
 }

@@ -63,8 +63,8 @@ Plc assemble_plc(const InputPlc& input, UncheckedPlc parts, const PlcOptions& op
 /// Finds facets, segments and regions, and checks that they form a piecewise linear complex.
 ///
 /// \param gathered    from the input with the same options; see `examine_parts`
-/// \throw InputError  duplicate facets, facets that cross or cover each other, an open surface, seeds outside; or as in
-///                    `gather_plc`
+/// \throw InputError  duplicate facets, facets that cross or cover each other, an open surface, seeds outside, opposite
+///                    sides that differ; or as in `gather_plc`
 Plc check_plc(const InputPlc& input, UncheckedPlc gathered, const PlcOptions& options = {},
               const Progress& progress = {});
 

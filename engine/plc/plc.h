@@ -9,6 +9,7 @@
 #include "engine/base/index.h"
 #include "engine/base/point.h"
 #include "engine/geometry/grid.h"
+#include "engine/plc/periodicity.h"
 
 namespace ccdt::plc {
 
@@ -63,6 +64,7 @@ struct Plc {
   std::vector<Region> regions;
   std::vector<Point3> idle_holes;  ///< seeds of holes where nothing is enclosed anyway, in the units of the input
   double largest_rounding = 0;     ///< largest change of a coordinate by the grid, in the units of the input
+  Periodicity periodicity = Periodicity::none;  ///< which opposite sides are equal; see `find_repeats`
 
   /// Any triangulation of a facet, with all of its vertices, consistently oriented.
   std::span<const std::array<VertexId, 3>> triangles_of(const Facet& facet) const {

@@ -24,6 +24,12 @@ inline constexpr std::uint32_t whole_segment = 1u << 30;
 /// Multiples of this fraction, 2^-20, are on the grid on every segment.
 inline constexpr std::uint32_t usual_step = whole_segment >> 20;
 
+/// The point at a fraction of a segment; exact if it is on the grid.
+inline Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
+  const auto& [a, b] = plc.segments[segment].ends;
+  return plc.vertices[a] + fraction * ((1.0 / whole_segment) * (plc.vertices[b] - plc.vertices[a]));
+}
+
 /// A vertex inside a segment.
 struct InnerVertex {
   std::uint32_t segment;

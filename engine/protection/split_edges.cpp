@@ -55,13 +55,6 @@ std::uint32_t finest_step(const Point3& along) {
   return whole_segment >> zeros;
 }
 
-Point3 point_on_segment(const plc::Plc& plc, std::uint32_t segment, std::uint32_t fraction) {
-  const Point3& a = plc.vertices[plc.segments[segment].ends[0]];
-  const Point3& b = plc.vertices[plc.segments[segment].ends[1]];
-  // Exact, as the fraction is a multiple of `finest_step`.
-  return a + fraction * ((1.0 / whole_segment) * (b - a));
-}
-
 /// More than any real part needed (six splits per vertex). So segments that would split each other forever are refused
 /// within seconds.
 std::size_t most_splits(std::size_t vertices) {

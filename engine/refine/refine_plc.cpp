@@ -12,10 +12,12 @@
 #include <utility>
 
 #include "engine/base/count_work.h"
+#include "engine/base/hash_table.h"
 #include "engine/base/simplex_map.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/geometry/balls.h"
 #include "engine/refine/close_segments.h"
+#include "engine/refine/copies.h"
 #include "engine/refine/divide_segment.h"
 #include "engine/refine/facet_triangulation.h"
 #include "engine/sizes/size_field.h"
@@ -81,7 +83,9 @@ class Refiner {
         progress_(progress),
         points_(plc_.vertices),
         least_distances_(find_close_segments(plc_)),
-        facets_of_segment_(plc_.segments.size()) {
+        facets_of_segment_(plc_.segments.size()),
+        copies_(plc_) {
+    copies_.make_equal(least_distances_);
     std::vector<std::array<VertexId, 2>> edges;
     for (const plc::Segment& s : plc_.segments) edges.push_back(s.ends);
     segment_of_edge_ = EdgeMap(edges, plc_.vertices.size());
@@ -164,11 +168,16 @@ class Refiner {
   }
 
   void divide(std::uint32_t segment) {
-    const auto& [first, last] = plc_.segments[segment].ends;
-    const VertexId begin(points_.size());
-    for (const std::uint32_t fraction : divide_segment(ends_of(segment), least_distances_[segment], sizes_))
-      add_point_on_segment(segment, fraction);
-    split_evenly(segment, first, last, begin, VertexId(points_.size()));
+    if (!copies_.is_first(segment)) return;
+    const std::vector<std::uint32_t> fractions =
+        divide_segment(ends_of(segment), least_distances_[segment], sizes_);
+    copies_.visit(segment, [&](std::uint32_t copy, bool turned) {
+      const auto& [first, last] = plc_.segments[copy].ends;
+      const VertexId begin(points_.size());
+      for (const std::uint32_t fraction : fractions)
+        add_point_on_segment(copy, turned ? all_steps - fraction : fraction);
+      split_evenly(copy, turned ? last : first, turned ? first : last, begin, VertexId(points_.size()));
+    });
   }
 
   /// Splits the edge ab of a segment at the vertices from `begin` to before `end`, the middle one first: if they were
@@ -185,7 +194,15 @@ class Refiner {
     points_.push_back(at_fraction(ends_of(segment), fraction));
     place_.push_back({segment, fraction, none});
     wanted_.push_back(sizes_.at(points_.back()));
+    if (copies_.has_copies(segment))
+      vertex_at_.set(std::uint64_t{segment} << 32 | fraction, VertexId(points_.size() - 1));
     return VertexId(points_.size() - 1);
+  }
+
+  VertexId vertex_at(std::uint32_t segment, std::uint32_t fraction) const {
+    if (fraction == 0) return plc_.segments[segment].ends[0];
+    if (fraction == all_steps) return plc_.segments[segment].ends[1];
+    return *vertex_at_.find(std::uint64_t{segment} << 32 | fraction);
   }
 
   /// Splits the edge ab of a segment.
@@ -221,8 +238,13 @@ class Refiner {
     const std::uint32_t from = fraction_of(segment, a), to = fraction_of(segment, b);
     const std::uint32_t half = std::min(from, to) + (std::max(from, to) - std::min(from, to)) / 2;
     if (half == std::min(from, to) || !may_have_vertex(segment, half, wanted)) return false;
-    const VertexId v = add_on_segment(segment, a, b, half);
-    for (const std::uint32_t f : facets_of_segment_[segment]) enter_around(f, v);
+    copies_.visit(segment, [&](std::uint32_t copy, bool turned) {
+      const auto at = [&](std::uint32_t fraction) { return turned ? all_steps - fraction : fraction; };
+      const VertexId v = copy == segment
+                             ? add_on_segment(segment, a, b, half)
+                             : add_on_segment(copy, vertex_at(copy, at(from)), vertex_at(copy, at(to)), at(half));
+      for (const std::uint32_t f : facets_of_segment_[copy]) enter_around(f, v);
+    });
     return true;
   }
 
@@ -260,6 +282,7 @@ class Refiner {
   }
 
   void enter(std::uint32_t facet, std::uint32_t triangle) {
+    if (copies_.is_copy(facet)) return;
     const double badness = badness_of(facet, triangle);
     if (badness > 0) queue_.push({badness, facet, triangle, triangulation(facet).triangles[triangle]});
   }
@@ -319,6 +342,12 @@ class Refiner {
     place_.push_back({none, 0, facet});
     wanted_.push_back(sizes_.at(*p));
     enter_around(facet, v);
+    if (const auto [copy, shift] = copies_.of_facet(facet); copy != none) {
+      points_.push_back(*p + shift);
+      place_.push_back({none, 0, copy});
+      wanted_.push_back(wanted_[v]);
+      facets_[copy].insert(VertexId(v + 1), facets_[copy].find(VertexId(v + 1)));
+    }
     return true;
   }
 
@@ -408,8 +437,10 @@ class Refiner {
   std::vector<PlaceOfVertex> place_;  // of each
   std::vector<double> wanted_;        // length of edges at each
   EdgeMap segment_of_edge_;
-  std::vector<LeastDistances> least_distances_;  // by segment: of its vertices from its ends
+  HashTable<std::uint64_t, VertexId> vertex_at_;  // by segment and fraction
+  std::vector<LeastDistances> least_distances_;   // by segment: of its vertices from its ends
   std::vector<std::vector<std::uint32_t>> facets_of_segment_;
+  Copies copies_;
   std::vector<FacetTriangulation> facets_;
   std::priority_queue<BadTriangle> queue_;
   std::vector<std::uint32_t> cavity_;  // working memory

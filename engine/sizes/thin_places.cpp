@@ -12,6 +12,7 @@
 #include "engine/base/simplex_map.h"
 #include "engine/geometry/closest_point.h"
 #include "engine/sizes/budget.h"
+#include "engine/sizes/repeat_places.h"
 #include "engine/sizes/sample_cell.h"
 #include "engine/sizes/walls.h"
 
@@ -214,6 +215,7 @@ SizeField find_thin_places(const plc::Plc& plc, double largest, double grading, 
     limit_from_below(limited, least);
     limited = thinned(limited);
     limited.insert(limited.end(), wanted.places.begin(), wanted.places.end());
+    repeat_places(plc, largest, grading, limited);
     return SizeField(largest, grading, limited, &wanted.background);
   };
   const double even = count_triangles(plc, SizeField(largest, grading, wanted.places, &wanted.background));

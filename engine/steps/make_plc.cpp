@@ -14,23 +14,10 @@
 #include "engine/plc/gather_parts.h"
 #include "engine/refine/refine_plc.h"
 #include "engine/sizes/wanted_places.h"
+#include "engine/steps/tetrahedralize_vertices.h"
 
 namespace ccdt::steps {
 namespace {
-
-/// The Delaunay tetrahedralization of the vertices of an input; none if they are flat. Protection works on a
-/// tetrahedralization that grows by one vertex at a time, so this one is made by insertion, whatever the method. With
-/// another method, it is used only for protection.
-std::optional<delaunay::Delaunay> tetrahedralize_vertices(std::span<const Point3> points, Run& run) {
-  const bool stays = run.options.delaunay != DelaunayMethod::wrap;
-  return run.measured(stays ? Stage::delaunay : Stage::protect, [&]() -> std::optional<delaunay::Delaunay> {
-    try {
-      return delaunay::build_delaunay(points, run.progress);
-    } catch (const MeshError&) {
-      return {};
-    }
-  });
-}
 
 /// Adds the vertices of refinement to the PLC.
 ///
@@ -75,7 +62,7 @@ plc::Plc flattened(const plc::Plc& plc, const Run& run) {
 }  // namespace
 
 TetrahedralizedPlc make_plc(const InputPlc& input, bool flattens, Run& run) {
-  const plc::PlcOptions flat{run.options.flatness};
+  const plc::PlcOptions flat{run.options.flatness, run.options.periodic};
   const bool refines = run.options.surface == SurfaceRule::refine;
   plc::UncheckedPlc gathered = run.measured(Stage::plc, [&] { return plc::gather_plc(input, flat, run.progress); });
   // Refinement adds vertices, and all ranks depend on them. So a tetrahedralization would be used only for this check.

@@ -4,6 +4,7 @@
 
 #include "engine/front/find_facet_faces.h"
 #include "engine/steps/place_points.h"
+#include "engine/steps/repeat_splits.h"
 
 namespace ccdt::steps {
 namespace {
@@ -49,6 +50,7 @@ void protect_domain(folds::SurfaceProtector& protector, ProtectedDomain& domain,
       find_faces(domain);
       return protector.is_protected(domain.delaunay, domain.chains, domain.facets, domain.codes);
     });
+    if (is_protected) is_protected = !repeat_splits(domain.chains, protector, run);
   }
   count_vertices(domain, run.counts);
 }
