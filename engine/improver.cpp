@@ -17,6 +17,7 @@
 #include "engine/improve/improve_mesh.h"
 #include "engine/mesh/assemble_mesh.h"
 #include "engine/mesh/boundary_faces.h"
+#include "engine/mesh/sides.h"
 #include "engine/options/check_options.h"
 #include "engine/plc/plc.h"
 #include "engine/tets/cell_complex.h"
@@ -64,42 +65,22 @@ std::vector<Point3> to_grid(mesh::TetMesh& mesh, const DyadicGrid& grid) {
   return points;
 }
 
-/// A face of a tetrahedron.
-struct Side {
-  FaceKey key;
-  std::uint32_t tetrahedron;
-  std::uint32_t face;  ///< of its `mesh::outward_faces`
-
-  auto operator<=>(const Side&) const = default;
-};
-
-std::vector<Side> sorted_sides(const mesh::TetMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(4 * mesh.tetrahedra.size());
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    const auto faces = mesh::outward_faces(mesh.tetrahedra[t]);
-    for (std::uint32_t f = 0; f < 4; ++f) sides.push_back({face_key(faces[f][0], faces[f][1], faces[f][2]), t, f});
-  }
-  std::ranges::sort(sides);
-  return sides;
-}
-
 /// Adds to the listed faces those on the boundary and between regions.
 void list_walls(mesh::TetMesh& mesh) {
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<mesh::Side> sides = mesh::sorted_sides(mesh);
   std::vector<FaceKey> listed;
   for (const auto& [a, b, c] : mesh.faces) {
     listed.push_back(face_key(a, b, c));
-    if (!std::ranges::binary_search(sides, listed.back(), {}, &Side::key))
+    if (!std::ranges::binary_search(sides, listed.back(), {}, &mesh::Side::key))
       refuse(mesh, "a listed face belongs to no tetrahedron", Face{a, b, c});
   }
   std::ranges::sort(listed);
   if (const auto twice = std::ranges::adjacent_find(listed); twice != listed.end())
     refuse(mesh, "a face is listed twice", *twice);
-  const auto corners = [&](const Side& side) {
+  const auto corners = [&](const mesh::Side& side) {
     return mesh::outward_faces(mesh.tetrahedra[side.tetrahedron])[side.face];
   };
-  const auto is_turned = [&](const Side& side) {
+  const auto is_turned = [&](const mesh::Side& side) {
     const auto [a, b, c] = corners(side);
     return is_odd(a, b, c);
   };

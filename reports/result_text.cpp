@@ -226,7 +226,8 @@ std::string quality_lines(const bench::Quality& q) {
 std::string surface_line(const surface::SurfaceChange& change) {
   const auto& [x, y, z] = change.farthest;
   return "surface     at most " + rounded(change.distance) + " from that of the input (near " + rounded(x, 6) + ", " +
-         rounded(y, 6) + ", " + rounded(z, 6) + "); area changed by " + rounded(change.area_change) + "\n";
+         rounded(y, 6) + ", " + rounded(z, 6) + "); area changed by " + rounded(change.area_change) +
+         (change.volume_change ? ", volume by " + rounded(*change.volume_change) : "") + "\n";
 }
 
 /// The first rows of a table, and the number of the others.

@@ -91,7 +91,8 @@ template <>
 inline constexpr auto fields<surface::SurfaceChange> = std::tuple(
     field("distance", &surface::SurfaceChange::distance), field("distance_to_input", &surface::SurfaceChange::to_input),
     field("distance_from_input", &surface::SurfaceChange::from_input),
-    field("farthest", &surface::SurfaceChange::farthest), field("area_change", &surface::SurfaceChange::area_change));
+    field("farthest", &surface::SurfaceChange::farthest), field("area_change", &surface::SurfaceChange::area_change),
+    field_if_any("volume_change", &surface::SurfaceChange::volume_change));
 
 template <>
 inline constexpr auto fields<Requirements> = std::tuple(field_if_any("dihedral_degrees",

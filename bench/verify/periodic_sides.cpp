@@ -76,8 +76,7 @@ class SideMatcher {
 
   void add_failure(const Face& face, const char* other_side) {
     fail(check_, [&] {
-      return "face" + text(topology_.mesh.vertices, face) + " is not on the side of " + other_side + " " +
-             "xyz"[axis_];
+      return "face" + text(topology_.mesh.vertices, face) + " is not on the side of " + other_side + " " + "xyz"[axis_];
     });
   }
 

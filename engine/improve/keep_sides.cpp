@@ -7,7 +7,8 @@
 namespace ccdt::improve {
 
 void keep_faces_on_sides(const plc::Plc& plc, std::span<const Point3> points,
-                         std::span<const std::array<std::uint32_t, 3>> faces, std::vector<std::uint32_t>& facet_of_face) {
+                         std::span<const std::array<std::uint32_t, 3>> faces,
+                         std::vector<std::uint32_t>& facet_of_face) {
   if (plc.periodicity == plc::Periodicity::none) return;
   const plc::Period period = plc::period_of(plc.vertices, plc.periodicity);
   auto next_facet = static_cast<std::uint32_t>(plc.facets.size());

@@ -16,7 +16,8 @@ namespace ccdt::improve {
 ///
 /// \param points  of the mesh, in grid units
 void keep_faces_on_sides(const plc::Plc& plc, std::span<const Point3> points,
-                         std::span<const std::array<std::uint32_t, 3>> faces, std::vector<std::uint32_t>& facet_of_face);
+                         std::span<const std::array<std::uint32_t, 3>> faces,
+                         std::vector<std::uint32_t>& facet_of_face);
 
 /// Keeps the vertices on the sides of a periodic mesh where they are.
 ///

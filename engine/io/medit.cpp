@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "engine/io/formats.h"
+#include "engine/io/mesh_surface.h"
 #include "engine/io/read_lines.h"
 #include "engine/io/text_scanner.h"
-#include "engine/mesh/boundary_faces.h"
 
 namespace ccdt::io {
 
@@ -41,14 +41,14 @@ void read_elements(TextScanner& in, const Item& item, std::size_t vertices,
   });
 }
 
-/// \param with_tetrahedra  if false, they are skipped, like every section not listed above
-MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
+/// \param is_mesh  tetrahedra must follow the facets
+MeditFile read_medit(const FileBytes& file, bool is_mesh) {
   MeditFile medit;
   mesh::TetMesh& mesh = medit.mesh;
   TextScanner in(file);
   in.expect("header", "MeshVersionFormatted", "check that this is a Medit text file");
   in.integer("MeshVersionFormatted");
-  bool ended = false, skips_tetrahedra = false;
+  bool ended = false;
   while (!ended && !in.at_end()) {
     const std::string_view keyword = in.word("keyword");
     const std::size_t vertices = mesh.vertices.size();
@@ -65,12 +65,11 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
     } else if (keyword == "Quadrilaterals") {
       medit.first_quadrilateral = facets;
       read_elements(in, {"facet", facets}, vertices, medit.quadrilaterals, medit.quadrilateral_references);
-    } else if (keyword == "Tetrahedra" && with_tetrahedra) {
+    } else if (keyword == "Tetrahedra") {
       read_elements(in, {"tetrahedron", mesh.tetrahedra.size()}, vertices, mesh.tetrahedra, mesh.regions);
     } else if (keyword == "End") {
       ended = true;
     } else if (starts_with_letter(keyword)) {
-      skips_tetrahedra = skips_tetrahedra || keyword == "Tetrahedra";
       while (!in.at_end() && !starts_with_letter(in.peek())) in.word("section");
     } else {
       in.fail("keyword", "expected a keyword, found " + in_quotes(keyword));
@@ -78,7 +77,7 @@ MeditFile read_medit(const FileBytes& file, bool with_tetrahedra) {
   }
   // Some programs leave out 'End'. The counts show that the sections are complete, and the line break shows that the
   // last number is.
-  const bool has_elements = with_tetrahedra ? !mesh.tetrahedra.empty() : medit.has_facets() || skips_tetrahedra;
+  const bool has_elements = !mesh.tetrahedra.empty() || (!is_mesh && medit.has_facets());
   const bool is_whole = has_elements && file.bytes.back() == line_end_of(file.bytes);
   if (!ended && !is_whole) in.fail_truncated("keyword 'End'");
   if (!ended) medit.notes.push_back("the keyword 'End' is missing; the file may have been cut off after a section");
@@ -112,6 +111,11 @@ void write_medit(std::string_view comment, const mesh::TetMesh& mesh, const Medi
 }  // namespace
 
 plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside) {
+  if (!medit.mesh.tetrahedra.empty() && medit.quadrilaterals.empty()) {
+    plc::InputPlc plc = surface_of(std::move(medit.mesh));
+    plc.notes.insert(plc.notes.begin(), medit.notes.begin(), medit.notes.end());
+    return plc;
+  }
   const mesh::TetMesh& mesh = medit.mesh;
   plc::InputPlc plc;
   plc.inside = inside;
@@ -124,17 +128,6 @@ plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside) {
   plc.vertices = std::move(medit.mesh.vertices);
   finish_facets(plc);
   return plc;
-}
-
-plc::InputPlc boundary_of(MeditFile medit) {
-  const std::size_t tetrahedra = medit.mesh.tetrahedra.size();
-  if (tetrahedra > 0) {
-    medit.mesh.faces = mesh::boundary_faces(medit.mesh);
-    medit.mesh.face_markers.assign(medit.mesh.faces.size(), 0);
-    medit.notes.push_back("the file has tetrahedra and no triangles, so their boundary was used; tetrahedra: " +
-                          std::to_string(tetrahedra));
-  }
-  return plc_of(std::move(medit), plc::InputPlc::Inside::even_odd);
 }
 
 MeditFile medit_of(const plc::InputPlc& plc) {
@@ -156,8 +149,7 @@ MeditFile medit_of(const plc::InputPlc& plc) {
 }
 
 plc::InputPlc read_medit_plc(const FileBytes& file) {
-  MeditFile surface = read_medit(file, false);
-  return surface.has_facets() ? plc_of(std::move(surface), inside_claimed(file)) : boundary_of(read_medit(file, true));
+  return plc_of(read_medit(file, false), inside_claimed(file));
 }
 
 mesh::TetMesh read_medit_mesh(const FileBytes& file) {

@@ -22,11 +22,10 @@ struct MeditFile {
   bool has_facets() const { return !mesh.faces.empty() || !quadrilaterals.empty(); }
 };
 
-/// As a surface or PLC; `inside` is what the caller knows from the file's claim.
+/// As a surface or PLC: if there are tetrahedra, the boundaries of their regions (`surface_of`).
+///
+/// \param inside  what the caller knows from the file's claim, if there are only facets
 plc::InputPlc plc_of(MeditFile medit, plc::InputPlc::Inside inside);
-
-/// The boundary of the tetrahedra of a file without facets, as a surface.
-plc::InputPlc boundary_of(MeditFile medit);
 
 /// Of a PLC whose facets are triangles and quadrilaterals.
 MeditFile medit_of(const plc::InputPlc& plc);

@@ -44,8 +44,7 @@ class MeditReader {
  public:
   explicit MeditReader(const FileBytes& file) : size_(file.bytes.size()), in_(file) {}
 
-  /// \param with_tetrahedra  if false, they are skipped
-  MeditFile read(bool with_tetrahedra) {
+  MeditFile read() {
     read_head();
     while (true) {
       const std::size_t begin = in_.position();
@@ -56,7 +55,7 @@ class MeditReader {
         in_.fail("section",
                  "the next one is said to be at byte " + std::to_string(next) + " of " + std::to_string(size_),
                  "the file is truncated or damaged: export it again");
-      read_section(keyword, with_tetrahedra);
+      read_section(keyword);
       if (in_.position() > next) in_.fail("section", "it reaches into the next one", ByteScanner::damaged_remedy);
       in_.move_to(next);
     }
@@ -81,7 +80,7 @@ class MeditReader {
       in_.fail(head, "the dimension is " + std::to_string(dimension), "give a mesh in three dimensions");
   }
 
-  void read_section(std::int32_t keyword, bool with_tetrahedra) {
+  void read_section(std::int32_t keyword) {
     mesh::TetMesh& mesh = medit_.mesh;
     const std::size_t facets = mesh.faces.size() + medit_.quadrilaterals.size();
     if (keyword == vertices_keyword) {
@@ -94,7 +93,7 @@ class MeditReader {
     } else if (keyword == quadrilaterals_keyword) {
       medit_.first_quadrilateral = facets;
       read_elements({"facet", facets}, medit_.quadrilaterals, medit_.quadrilateral_references);
-    } else if (keyword == tetrahedra_keyword && with_tetrahedra) {
+    } else if (keyword == tetrahedra_keyword) {
       read_elements({"tetrahedron", mesh.tetrahedra.size()}, mesh.tetrahedra, mesh.regions);
     }
   }
@@ -266,13 +265,11 @@ std::string_view tail_of(const FileBytes& file) {
 
 plc::InputPlc read_meditb_plc(const FileBytes& file) {
   using Inside = plc::InputPlc::Inside;
-  MeditFile surface = MeditReader(file).read(false);
-  if (!surface.has_facets()) return boundary_of(MeditReader(file).read(true));
-  return plc_of(std::move(surface), tail_of(file).ends_with(even_odd_claim) ? Inside::even_odd : Inside::seeds);
+  return plc_of(MeditReader(file).read(), tail_of(file).ends_with(even_odd_claim) ? Inside::even_odd : Inside::seeds);
 }
 
 mesh::TetMesh read_meditb_mesh(const FileBytes& file) {
-  mesh::TetMesh mesh = MeditReader(file).read(true).mesh;
+  mesh::TetMesh mesh = MeditReader(file).read().mesh;
   take_claims(tail_of(file), mesh);
   return mesh;
 }

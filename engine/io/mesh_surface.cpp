@@ -1,21 +1,12 @@
 #include "engine/io/mesh_surface.h"
 
 #include <algorithm>
-#include <iterator>
 
-#include "engine/base/simplex_map.h"
 #include "engine/io/formats.h"
-#include "engine/mesh/boundary_faces.h"
+#include "engine/io/mesh_regions.h"
 
 namespace ccdt::io {
 namespace {
-
-void add_boundary_faces(mesh::TetMesh& mesh) {
-  const FaceMap listed(mesh.faces, mesh.vertices.size());
-  std::ranges::copy_if(mesh::boundary_faces(mesh), std::back_inserter(mesh.faces),
-                       [&](const auto& face) { return listed.find(face[0], face[1], face[2]).index == none; });
-  mesh.face_markers.resize(mesh.faces.size(), 0);
-}
 
 /// The vertices of facets and segments, which get their new numbers.
 std::vector<Point3> keep_used(const std::vector<Point3>& vertices, mesh::TetMesh& mesh) {
@@ -40,8 +31,10 @@ std::vector<Point3> keep_used(const std::vector<Point3>& vertices, mesh::TetMesh
 plc::InputPlc surface_of(mesh::TetMesh mesh) {
   plc::InputPlc plc;
   if (!mesh.tetrahedra.empty()) {
-    add_boundary_faces(mesh);
-    plc.notes.push_back("the file has tetrahedra, so their boundary was used; tetrahedra: " +
+    plc.inside = plc::InputPlc::Inside::seeds;
+    plc.regions = bound_regions(mesh);
+    plc.holes = cavity_seeds(mesh);
+    plc.notes.push_back("the file has tetrahedra, so the boundaries of their regions were used; tetrahedra: " +
                         std::to_string(mesh.tetrahedra.size()));
   }
   plc.vertices = keep_used(mesh.vertices, mesh);

@@ -37,7 +37,8 @@ std::vector<FaceOnSide> find_faces_on_sides(const plc::Plc& plc, std::span<const
 
 }  // namespace
 
-void check_sides(const plc::Plc& plc, std::span<const Point3> points, std::span<const std::array<std::uint32_t, 3>> faces) {
+void check_sides(const plc::Plc& plc, std::span<const Point3> points,
+                 std::span<const std::array<std::uint32_t, 3>> faces) {
   if (plc.periodicity == plc::Periodicity::none) return;
   std::vector<FaceOnSide> all = find_faces_on_sides(plc, points, faces);
   std::sort(all.begin(), all.end());

@@ -14,6 +14,7 @@ namespace ccdt::mesh {
 /// \param points  of the mesh, in grid units
 /// \param faces   of the mesh
 /// \throw MeshError  with the place of a face that is on one side alone
-void check_sides(const plc::Plc& plc, std::span<const Point3> points, std::span<const std::array<std::uint32_t, 3>> faces);
+void check_sides(const plc::Plc& plc, std::span<const Point3> points,
+                 std::span<const std::array<std::uint32_t, 3>> faces);
 
 }  // namespace ccdt::mesh

@@ -23,7 +23,8 @@ void check_strategies(const MeshOptions& options) {
       throw InputError("a strategy is not one of its enumeration", {}, "use the named values");
   };
   check(options.lattice, options.protection, options.locator, options.delaunay, options.visibility, options.surface,
-        options.periodic, improvement_of(options), options.improve.objective, options.improve.boundary, options.improve.steiner);
+        options.periodic, improvement_of(options), options.improve.objective, options.improve.boundary,
+        options.improve.steiner);
 }
 
 }  // namespace

@@ -74,8 +74,8 @@ struct MeshOptions {
   ImproveOptions improve = {};                  ///< improvement of the finished mesh; see `improvement_of`
   /// A size function, in the units of the input. For the inside, it replaces the edge lengths of the surface.
   BackgroundSizes background = {};
-  LocalSizes local = {};       ///< where edges should be shorter; needs a grading
-  double surface_factor = 1;   ///< of the edge lengths of the surface, where these are the target for the inside
+  LocalSizes local = {};      ///< where edges should be shorter; needs a grading
+  double surface_factor = 1;  ///< of the edge lengths of the surface, where these are the target for the inside
   Periodicity periodic = Periodicity::none;  ///< opposite sides of the box of the input, which must be equal, get the
                                              ///< same vertices and triangles; not with a new surface
   double tetrahedra = 0;       ///< scale all sizes until the mesh has this many, within five percent; 0: do not

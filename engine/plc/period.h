@@ -41,7 +41,8 @@ struct Period {
 
 inline Period period_of(std::span<const Point3> points, Periodicity periodicity) {
   Period period{.box = bounding_box(points)};
-  for (std::size_t axis = 0; axis < 3; ++axis) period.repeats[axis] = (static_cast<unsigned>(periodicity) >> axis & 1) != 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    period.repeats[axis] = (static_cast<unsigned>(periodicity) >> axis & 1) != 0;
   return period;
 }
 

@@ -169,8 +169,7 @@ class Refiner {
 
   void divide(std::uint32_t segment) {
     if (!copies_.is_first(segment)) return;
-    const std::vector<std::uint32_t> fractions =
-        divide_segment(ends_of(segment), least_distances_[segment], sizes_);
+    const std::vector<std::uint32_t> fractions = divide_segment(ends_of(segment), least_distances_[segment], sizes_);
     copies_.visit(segment, [&](std::uint32_t copy, bool turned) {
       const auto& [first, last] = plc_.segments[copy].ends;
       const VertexId begin(points_.size());

@@ -4,20 +4,9 @@
 #include <cstdint>
 
 #include "engine/geometry/closest_point.h"
+#include "engine/geometry/ray.h"
 
 namespace ccdt::sizes {
-namespace {
-
-/// Where a segment crosses a triangle, from 0 to 1; infinite if it does not (Moeller and Trumbore 1997).
-double crossing_of(const LineSegment& s, const Triangle& t) {
-  const Point3 ab = t[1] - t[0], ac = t[2] - t[0], from_a = s.from - t[0];
-  const Point3 across = cross(s.along, ac), aside = cross(from_a, ab);
-  const double det = dot(ab, across);
-  const double u = dot(from_a, across) / det, v = dot(s.along, aside) / det, where = dot(ac, aside) / det;
-  return u >= 0 && v >= 0 && u + v <= 1 && where >= 0 ? where : HUGE_VAL;  // false if det is 0
-}
-
-}  // namespace
 
 RegionShape::RegionShape(const plc::Plc& plc, RegionId region) {
   for (const plc::Facet& facet : plc.facets) {

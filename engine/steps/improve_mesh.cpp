@@ -26,7 +26,8 @@ void improve_mesh(ProtectedDomain& domain, Tetrahedralization& t, Run& run) {
   if (!improves(domain, run)) return;
   ImproveOptions options = run.options.improve;
   options.improvement = improvement_of(run.options);
-  if (domain.plc.periodicity != plc::Periodicity::none) options.steiner = SteinerRule::keep;  // none goes on one side alone
+  if (domain.plc.periodicity != plc::Periodicity::none)
+    options.steiner = SteinerRule::keep;  // none goes on one side alone
   MeshCounts& counts = run.counts;
   improve::ImproveInput input{domain.plc,
                               domain.chains,

@@ -14,8 +14,8 @@
 namespace ccdt::steps {
 namespace {
 
-/// The points that repeat each other, one list for each place of the period, sorted by coordinates; the lists are in the
-/// order of a Hilbert curve.
+/// The points that repeat each other, one list for each place of the period, sorted by coordinates; the lists are in
+/// the order of a Hilbert curve.
 std::vector<std::vector<std::uint32_t>> repeated_points(std::span<const Point3> points, const plc::Period& period) {
   std::vector<Point3> places;
   std::vector<std::vector<std::uint32_t>> at_place;
@@ -37,11 +37,16 @@ std::vector<std::vector<std::uint32_t>> repeated_points(std::span<const Point3> 
 
 bool extends_simplex(std::span<const Point3> simplex, const Point3& p) {
   switch (simplex.size()) {
-    case 0: return true;
-    case 1: return !(p == simplex[0]);
-    case 2: return !collinear(simplex[0], simplex[1], p);
-    case 3: return orient3d(simplex[0], simplex[1], simplex[2], p) != 0;
-    default: return false;
+    case 0:
+      return true;
+    case 1:
+      return !(p == simplex[0]);
+    case 2:
+      return !collinear(simplex[0], simplex[1], p);
+    case 3:
+      return orient3d(simplex[0], simplex[1], simplex[2], p) != 0;
+    default:
+      return false;
   }
 }
 

@@ -1,10 +1,15 @@
 #include "engine/surface/surface_change.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "engine/base/box.h"
+#include "engine/base/hash_table.h"
 #include "engine/geometry/closest_point.h"
 #include "engine/geometry/surface_distance.h"
 #include "engine/plc/facet_triangles.h"
@@ -25,6 +30,29 @@ double sum_of_areas(const std::vector<TrianglePoints>& triangles) {
   double sum = 0;
   for (const TrianglePoints& t : triangles) sum += 0.5 * length(area_vector(t));
   return sum;
+}
+
+/// The volume that a closed surface encloses; nothing if it is open, or if its triangles do not all face outward or all
+/// inward. Then the edges, as arrows, do not cancel in pairs, and neither do their hashes.
+std::optional<double> enclosed_volume(const std::vector<TrianglePoints>& triangles) {
+  const auto hash_of = [](const Point3& p) {
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // there are two zeros
+    return HashTraits<std::array<std::uint64_t, 3>>::hash({bits(p.x), bits(p.y), bits(p.z)});
+  };
+  std::uint64_t arrows = 0;
+  double sum = 0;
+  for (const TrianglePoints& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::array<std::size_t, 2> ends = {hash_of(t[i]), hash_of(t[(i + 1) % 3])};
+      const auto arrow = [&](std::size_t from) {
+        return HashTraits<std::array<std::uint64_t, 2>>::hash({ends[from], ends[1 - from]});
+      };
+      arrows += arrow(0) - arrow(1);
+    }
+    const Point3& origin = triangles[0][0];
+    sum += dot(t[0] - origin, area_vector({origin, t[1], t[2]})) / 6;
+  }
+  return arrows == 0 ? std::optional(std::fabs(sum)) : std::nullopt;
 }
 
 /// A power of two changes no digit, and squares of lengths neither overflow nor vanish.
@@ -50,6 +78,8 @@ SurfaceChange measure_change(const plc::InputPlc& before, const plc::InputPlc& a
   change.from_input = std::ldexp(from.bound, exponent);
   change.distance = std::max(change.to_input, change.from_input);
   change.farthest = as_array((1 / scale) * (to.bound > from.bound ? to : from).at);
+  const std::optional<double> volume_before = enclosed_volume(old_ones), volume_after = enclosed_volume(new_ones);
+  if (volume_before && volume_after) change.volume_change = std::ldexp(*volume_after - *volume_before, 3 * exponent);
   change.area_change = std::ldexp(sum_of_areas(new_ones) - sum_of_areas(old_ones), 2 * exponent);
   return change;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/base/point.h"
@@ -16,6 +17,8 @@ struct SurfaceChange {
   double from_input = 0;                ///< no point of the old surface is farther from the new one
   std::array<double, 3> farthest = {};  ///< a point that is about so far away
   double area_change = 0;
+  std::optional<double> volume_change = {};  ///< if both surfaces are closed, and all triangles at an edge agree about
+                                             ///< which side is inside
 };
 
 /// \param after      made of `before`

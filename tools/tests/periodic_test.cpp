@@ -25,7 +25,9 @@ plc::InputPlc two_cubes() {
 
 TEST_F(Program, PeriodicMeshesAreVerified) {
   io::write_plc(two_cubes(), work() / "cubes.off");
-  ASSERT_EQ(run("mesh cubes.off -o cubes.vtu --surface refine --edge-length 0.2 --periodic xyz --report r.json").exit_code, 0);
+  ASSERT_EQ(
+      run("mesh cubes.off -o cubes.vtu --surface refine --edge-length 0.2 --periodic xyz --report r.json").exit_code,
+      0);
   EXPECT_EQ(nlohmann::json::parse(std::ifstream(work() / "r.json")).at("options").at("periodic"), "xyz");
   EXPECT_EQ(run("verify cubes.off cubes.vtu --periodic xyz").exit_code, 0);
   ASSERT_EQ(run("mesh cubes.off -o free.vtu --surface refine --edge-length 0.2").exit_code, 0);

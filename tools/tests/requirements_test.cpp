@@ -153,6 +153,16 @@ TEST_F(Requirements, ChordsOfASphereHaveLessArea) {
   const Json surface = report_of("--surface remesh --edge-length 0.4", 0)["surface"];
   EXPECT_LT(surface["area_change"], -0.01);
   EXPECT_GT(surface["area_change"], -0.6);
+  EXPECT_LT(surface["volume_change"], -0.01);
+  EXPECT_GT(surface["volume_change"], -0.4);
+}
+
+TEST_F(Requirements, TheVolumeOfASurfaceThatIsNotOrientedIsUnknown) {
+  const std::string box = "OFF\n8 6 0\n0 0 0\n3 0 0\n0 2 0\n3 2 0\n0 0 1\n3 0 1\n0 2 1\n3 2 1\n";
+  write("part.off", box + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n");
+  EXPECT_NEAR(report_of("--surface remesh --edge-length 0.3", 0)["surface"]["volume_change"], 0, 1e-9);
+  write("part.off", box + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 2 6 4\n4 1 5 7 3\n");
+  EXPECT_FALSE(report_of("--surface remesh --edge-length 0.3", 0)["surface"].contains("volume_change"));
 }
 
 TEST_F(Requirements, OtherTrianglesOfFlatFacetsDoNotDeviate) {

@@ -96,18 +96,19 @@ TEST(UnusualFiles, StripsOfTrianglesInPly) {
   io_test::expect_refused("a.ply", head + "3 0 1 -2\n", {"-2"});
 }
 
-TEST(UnusualFiles, TheBoundaryOfTetrahedraAloneIsASurface) {
+TEST(UnusualFiles, TheBoundaryOfTetrahedraIsASurface) {
   mesh::TetMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   mesh.tetrahedra = {{0, 1, 2, 3}, {1, 2, 3, 4}};
-  mesh.regions = {1, 2};
+  mesh.regions = {2, 2};
   const Folder folder;
   for (const char* name : {"a.mesh", "a.meshb"}) {
     SCOPED_TRACE(name);
     io::write_tet_mesh(mesh, folder / name);
     const plc::InputPlc plc = io::read_plc(folder / name);
-    EXPECT_EQ(plc.inside, plc::InputPlc::Inside::even_odd);
     EXPECT_EQ(plc.notes.size(), 1u);
+    ASSERT_EQ(plc.regions.size(), 1u);
+    EXPECT_EQ(plc.regions[0].attribute, 2);
     EXPECT_EQ(plc.triangles.size(), 6u) << "all faces but the one between the two";
     double sixfold = 0;
     for (const auto& [a, b, c] : plc.triangles)

@@ -56,7 +56,8 @@ InputPlc cube_with_duct(bool has_walls = true) {
   InputPlc plc;
   for (const double x : {0.0, 1.0})
     for (const auto& [low, high] : {std::pair(0.0, 1.0), std::pair(0.3, 0.7)})
-      for (const auto& [y, z] : {std::pair(low, low), std::pair(high, low), std::pair(high, high), std::pair(low, high)})
+      for (const auto& [y, z] :
+           {std::pair(low, low), std::pair(high, low), std::pair(high, high), std::pair(low, high)})
         plc.vertices.push_back({x, y, z});
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
     plc.triangles.push_back({a, b, c});
