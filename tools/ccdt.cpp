@@ -37,11 +37,11 @@ int main(int argc, char** argv) {
     add_sweep_command(app, exit_code);
     add_gate_command(app, exit_code);
     add_report_command(app, exit_code);
+    for (CLI::App* verb : app.get_subcommands({})) add_quiet(*verb);
     add_completion_command(app, exit_code);
     add_man_command(app, exit_code);
     add_help_command(app, exit_code);
     add_version_command(app, exit_code);
-    for (const char* verb : {"model", "mesh", "improve", "check", "verify"}) add_quiet(*app.get_subcommand(verb));
     try {
       app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -103,6 +103,7 @@ void write_output(const std::string& name, const std::string& format,
     written.open(file, std::ios::binary);
   }
   // The file is open but has no name any more: nothing remains of it, however this process ends.
+  if (!written) throw OutputError("cannot be read again", {.file = "the temporary file"}, "allow more open files");
   std::array<char, block> bytes;
   while (written.read(bytes.data(), bytes.size()), written.gcount() > 0)
     print_data({bytes.data(), static_cast<std::size_t>(written.gcount())});

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/ioctl.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -127,11 +128,12 @@ class Waiting : public Streams {
 };
 
 TEST_F(Waiting, RunThatIsInterruptedSaysInWhichStage) {
-  const auto later = [] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    return true;
+  ASSERT_EQ(::write(in_[1], "O", 1), 1);
+  const auto reads = [&] {
+    int left = 1;
+    return ioctl(in_[0], FIONREAD, &left) == 0 && left == 0;
   };
-  EXPECT_EQ(end("mesh - -o a.mesh --report r.json", SIGINT, later), 130);
+  EXPECT_EQ(end("mesh - -o a.mesh --report r.json", SIGINT, reads), 130);
   EXPECT_EQ(report()["status"], "failed");
   EXPECT_EQ(report()["kind"], "interrupted");
   EXPECT_NE(report()["reason"].get<std::string>().find("'read'"), std::string::npos) << report()["reason"];

@@ -6,7 +6,8 @@ namespace {
 TEST_F(Program, QuietVerbsSayNothingIfAllIsWell) {
   for (const std::string arguments :
        {"model cube --edge-length 0.5 -o cube.off", "mesh cube.off -o cube.mesh", "improve cube.mesh -o better.mesh",
-        "check cube.off", "check cube.off --repair -o copy.off", "verify cube.off cube.mesh"}) {
+        "check cube.off", "check cube.off --repair -o copy.off", "verify cube.off cube.mesh",
+        "mesh cube.off -o cube.mesh --report r.json", "gate r.json --against r.json"}) {
     const Outcome outcome = run(arguments + " --quiet");
     EXPECT_EQ(outcome.exit_code, 0) << arguments << outcome.err;
     EXPECT_EQ(outcome.out + outcome.err, "") << arguments;
@@ -22,6 +23,7 @@ TEST_F(Program, QuietVerbsSayWhatIsWrong) {
        std::vector<std::pair<std::string, int>>{{"check open.off", 3},
                                                 {"mesh open.off -o a.mesh", 3},
                                                 {"verify other.off cube.mesh", 1},
+                                                {"gate r.json --against other.json", 3},
                                                 {"mesh cube.off -o a.mesh --require-r 1", 1}}) {
     const Outcome outcome = run(arguments + " -q");
     EXPECT_EQ(outcome.exit_code, code) << arguments;
