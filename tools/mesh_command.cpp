@@ -103,9 +103,9 @@ bool run(MeshCommand command) {
   const auto write_report = [&] {
     if (!command.report.empty()) write_text(command.report, bench::to_json(record));
   };
+  LastRecord last(command.report);
+  last.set(record);
   try {
-    LastRecord last(command.report);
-    last.set(record);
     with_progress(name_of_input(command.input), command.options.threads, [&](const Progress& progress) {
       mesh_file(command, record, last, [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
         if (stage != "estimate") last.enter(stage);

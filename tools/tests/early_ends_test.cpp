@@ -232,7 +232,8 @@ TEST_F(EarlyEnd, OfADescribedMesherRemovesItsScratchFolder) {
                          "command": ["/bin/sh", "-c", "sleep 0.4; cp )" +
                          (work() / "good.mesh").string() +
                          R"( out.mesh"], "input_format": "off", "output": "out.mesh"})");
-  end_at_random({{"mesh", "part.off", "-o", "o.vtu", "--mesher", "slow.json"}, {"o.vtu"}});
+  end_at_random(
+      {{"mesh", "part.off", "-o", "o.vtu", "--mesher", "slow.json", "--report", "r.json"}, {"o.vtu"}, "r.json"});
 }
 
 TEST_F(EarlyEnd, WithoutMemoryIsALimitThatNamesTheFile) {
