@@ -23,7 +23,7 @@ constexpr auto names_of(RunStatus) {
 }
 
 /// Why a run failed. The status follows from it.
-enum class FailureKind { invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong, missed };
+enum class FailureKind { invalid_input, limit, refused, crashed, timeout, out_of_memory, wrong, missed, interrupted };
 
 constexpr auto names_of(FailureKind) {
   using enum FailureKind;
@@ -35,7 +35,8 @@ constexpr auto names_of(FailureKind) {
        {timeout, "timeout", "the time limit was reached"},
        {out_of_memory, "out_of_memory", "the memory limit was reached, or the machine ran out of memory"},
        {wrong, "wrong", "the mesh cannot be read, is incomplete, or failed its verification"},
-       {missed, "missed", "the mesh misses a quality that was required of it, and is otherwise right"}});
+       {missed, "missed", "the mesh misses a quality that was required of it, and is otherwise right"},
+       {interrupted, "interrupted", "a signal asked the program to end"}});
 }
 
 /// The status of a run that failed.

@@ -19,6 +19,8 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // otherwise a signal ha
 
 volatile std::sig_atomic_t received = 0;
 
+void (*last_act)() = nullptr;
+
 extern "C" void on_stop(int signal) {
   received = signal;
   request_stop();
@@ -26,6 +28,7 @@ extern "C" void on_stop(int signal) {
 
 extern "C" void on_end(int signal) {
   io::remove_unfinished_files();
+  if (last_act != nullptr) last_act();
   _exit(signal_base + signal);
 }
 
@@ -53,7 +56,8 @@ bool stop_requested() {
   return is_requested;
 }
 
-void clean_up_on_signals() {
+void clean_up_on_signals(void (*last)()) {
+  last_act = last;
   handle_by(on_end);
   std::signal(SIGXFSZ, SIG_IGN);  // writing more than the system allows is then an error
 }

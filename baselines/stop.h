@@ -20,10 +20,11 @@ void request_stop();
 bool stop_requested();
 
 /// From now on, SIGINT, SIGTERM and SIGHUP remove all unfinished files (`io::remove_unfinished_files`) and end this
-/// process with the usual exit code of shells: 128 plus the number of the signal. After `nohup`, SIGHUP stays ignored.
+/// process with the usual exit code of shells: 128 plus the number of the signal. Before, they call `last`, if that is
+/// given; it may do only what a signal handler may. After `nohup`, SIGHUP stays ignored.
 /// Where a file would get larger than the system allows, writing fails, as on a full disk, instead of ending the
 /// process.
-void clean_up_on_signals();
+void clean_up_on_signals(void (*last)() = nullptr);
 
 /// While the object lives, these signals do not end this process but ask it to stop (`request_stop`). Objects may be
 /// nested. If nothing was stopped, the signal takes effect at the end of the outermost one.

@@ -75,6 +75,16 @@ MeshResult mesh_on_threads(const InputPlc& input, const MeshOptions& options, co
   return finish(domain, std::move(t), run);
 }
 
+/// Is so little to do that other threads would begin when all is done? Nothing asks for shorter edges than those of a
+/// small surface.
+bool is_tiny(const InputPlc& input, const MeshOptions& options) {
+  constexpr std::size_t few_vertices = 100;
+  const bool has_sizes = options.edge_length > 0 || options.tetrahedra > 0 || !options.background.empty() ||
+                         !options.local.empty() || !input.regions.empty();
+  return input.vertices.size() <= few_vertices && !has_sizes && options.surface == SurfaceRule::keep &&
+         options.lattice != Lattice::refinement;
+}
+
 }  // namespace
 
 Improvement improvement_of(const MeshOptions& options) {
@@ -95,7 +105,8 @@ MeshResult mesh_plc(const InputPlc& input, const MeshOptions& options, const Pro
   return with_file_in_errors(input.name, [&] {
     plc::check_input(input);
     options::check_options(options);
-    return with_threads(options.threads, [&] {
+    const unsigned threads = options.threads == 0 && is_tiny(input, options) ? 1 : options.threads;
+    return with_threads(threads, [&] {
       if (options.tetrahedra == 0) return mesh_on_threads(input, options, progress);
       return steps::reach_count(
           options.tetrahedra,

@@ -18,7 +18,8 @@ struct MeshResult {
   std::uint64_t idle_holes = 0;  ///< seeds of holes where nothing is enclosed; they were not used
 };
 
-/// On how many threads `mesh_plc` works with these options.
+/// On how many threads `mesh_plc` works at most with these options. By default, it does on one what is done sooner than
+/// others can start.
 unsigned number_of_threads(const MeshOptions& options);
 
 /// \throw LimitError  there are more tetrahedra than `MeshOptions::most_tetrahedra`

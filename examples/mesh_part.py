@@ -20,6 +20,8 @@ def edge_length(points):
 mesh = ccdt.mesh(surface, surface="refine", edge_length=size / 5, size_function=edge_length)
 angles = mesh.dihedral_angles()
 print(f"{len(mesh.tetrahedra)} tetrahedra, dihedral angles from {angles.min():.0f} to {angles.max():.0f} degrees")
+for problem in mesh.verify(surface).problems:
+    sys.exit(f"{problem.name}: {problem.examples[0]}")
 ccdt.write(mesh, sys.argv[2])  # FEniCSx reads .xdmf
 try:
     from matplotlib import pyplot

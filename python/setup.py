@@ -11,7 +11,7 @@ setup(
     name="ccdt",
     version=re.search(r"project\(ccdt VERSION ([0-9.]+)", (source / "CMakeLists.txt").read_text())[1],
     description="Tetrahedral meshes of solids",
-    license="MIT",
+    license="MIT; the module _verify has parts of CGAL under LGPL-3.0-or-later",
     python_requires=">=3.9",
     install_requires=["numpy"],
     packages=["ccdt"],

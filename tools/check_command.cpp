@@ -15,13 +15,14 @@
 #include "tools/options.h"
 #include "tools/part_of_result.h"
 #include "tools/progress_bar.h"
+#include "tools/streams.h"
 #include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
 
 struct CheckCommand {
-  std::string input, output, report;
+  std::string input, input_format, output, format, report;
   bool repair = false, details = false;
   MarkerOptions markers;
   repair::RepairOptions options;
@@ -29,6 +30,8 @@ struct CheckCommand {
 };
 
 void check_files(const CheckCommand& command) {
+  give_standard_output({command.output, command.report});
+  check_surface_stream(command.output, command.format);
   for (const std::string& file : {command.output, command.report}) {
     if (file.empty()) continue;
     check_can_be_written(file);
@@ -37,7 +40,9 @@ void check_files(const CheckCommand& command) {
 }
 
 void check_markers(const CheckCommand& command) {
-  if (command.markers.source == surface::MarkerSource::file || io::keeps_markers(command.output)) return;
+  if (command.markers.source == surface::MarkerSource::file ||
+      io::keeps_markers(is_stream(command.output) ? "output." + command.format : command.output))
+    return;
   throw OutputError("this format does not keep markers", io::place_in(command.output),
                     "choose .obj, .ply, .poly, .smesh, .mesh or .meshb");
 }
@@ -56,15 +61,15 @@ reports::CheckReport::Copy repaired_copy(const CheckCommand& command, const plc:
   reports::CheckReport::Copy copy{
       {}, std::move(repaired.steps), repaired.certificate, std::move(repaired.refused), repaired.is_out_of_time, {}};
   if (copy.refused.empty()) {
-    copy.output = command.output;
+    copy.output = name_of_output(command.output);
     mark(repaired.input, command.markers, command.options.flatness);
-    io::write_plc(repaired.input, command.output);
+    write_output(command.output, command.format, [&](const std::filesystem::path& file) {
+      io::write_plc(repaired.input, file);
+      // The format may round coordinates, so the file is checked, not what was written into it.
+      repaired.input = io::read_plc(file);
+    });
   }
-  PartOfResult written(copy.output);
-  if (!copy.output.empty()) {
-    // The format may round coordinates, so the file is checked, not what was written into it.
-    repaired.input = io::read_plc(command.output);
-  }
+  PartOfResult written(copy.output.empty() || is_stream(command.output) ? "" : command.output);
   copy.diagnosis = repair::find_faults(repaired.input, command.options.flatness, progress);
   written.keep();
   return copy;
@@ -81,7 +86,7 @@ void print_copy(const CheckCommand& command, const reports::CheckReport::Copy& c
   for (const std::string& refusal : copy.refused) print_error_line("not repaired: " + refusal);
   if (copy.is_out_of_time)
     print_error_line("out of time: the copy is unfinished; --time gives the repair more seconds");
-  if (!copy.output.empty()) print_diagnosis(command.output, copy.diagnosis, command.details);
+  if (!copy.output.empty()) print_diagnosis(copy.output, copy.diagnosis, command.details);
 }
 
 /// \return  0 if the input, or its repaired copy, is valid
@@ -89,19 +94,15 @@ ExitCode run(const CheckCommand& command) {
   keep_freed_memory();
   check_files(command);
   check_markers(command);
-  reports::CheckReport report{.input = command.input};
-  with_progress(command.input, command.threads, [&](const Progress& progress) {
-    const plc::InputPlc input = io::read_plc(command.input);
+  reports::CheckReport report{.input = name_of_input(command.input)};
+  with_progress(report.input, command.threads, [&](const Progress& progress) {
+    const plc::InputPlc input = read_plc(command.input, command.input_format);
     report.diagnosis = repair::find_faults(input, command.options.flatness, progress);
     if (command.repair) report.copy = repaired_copy(command, input, progress);
   });
-  print_diagnosis(command.input, report.diagnosis, command.details);
+  print_diagnosis(report.input, report.diagnosis, command.details);
   if (report.copy) print_copy(command, *report.copy);
-  if (!command.report.empty()) {
-    io::OutputFile file(command.report);
-    file << reports::to_json(report);
-    file.commit();
-  }
+  if (!command.report.empty()) write_text(command.report, reports::to_json(report));
   return code_of(report);
 }
 
@@ -111,9 +112,12 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<CheckCommand>();
   CLI::App* verb = app.add_subcommand("check", "list everything that is wrong with an input, and repair it");
   verb->add_option("INPUT", command->input, std::string("surface or PLC: ") + read_plc_endings)->required();
+  add_input_format(*verb, "--input-format", command->input_format, io::plc_format_names());
   CLI::Option* repair = verb->add_flag("--repair", command->repair, "write a repaired copy of the input");
-  CLI::Option* output = verb->add_option("-o,--output", command->output,
-                                         "the repaired copy: .stl .off .obj .ply .poly .smesh .mesh .meshb");
+  CLI::Option* output = verb->add_option(
+      "-o,--output", command->output,
+      "the repaired copy: .stl .off .obj .ply .poly .smesh .mesh .meshb; - is standard output, with --format");
+  add_surface_format(*verb, command->format);
   repair->needs(output);
   output->needs(repair);
   verb->add_option("--gap", command->options.gap,
@@ -143,11 +147,12 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   add_threads(*verb, command->threads);
   verb->add_flag("--details", command->details, "list the first 1,000 places of each fault, not only three");
-  verb->add_option("--report", command->report, "write all faults to this file as JSON (schema ccdt.check/1)");
+  verb->add_option("--report", command->report,
+                   "write all faults to this file as JSON (schema ccdt.check/1); - is standard output");
   verb->footer(
-      "Errors keep an input from being meshed; notes do not, but the input may not be what was meant.\n"
+      "Errors keep an input from being meshed; notes do not, but the input may not be what was meant. "
       "Facets are numbered from 0, as in the file.\n"
-      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair;\n"
+      "Exit codes: 0 the input, or the repaired copy, is valid; 3 it is not, or a limit forbade the repair; "
       "4 the repair ran out of time.\n\n"
       "Example: list what is wrong with a part\n"
       "  ccdt check part.stl\n"

@@ -23,6 +23,8 @@ void add_gate_command(CLI::App& app, ExitCode& exit_code);
 void add_report_command(CLI::App& app, ExitCode& exit_code);
 void add_completion_command(CLI::App& app, ExitCode& exit_code);
 void add_man_command(CLI::App& app, ExitCode& exit_code);
+void add_help_command(CLI::App& app, ExitCode& exit_code);
+void add_version_command(CLI::App& app, ExitCode& exit_code);
 
 /// The file of the running program.
 std::filesystem::path own_program();

@@ -43,7 +43,7 @@ Progress GateProgress::counted() {
 void GateProgress::show_line(std::string_view stage, std::uint64_t done, std::uint64_t total) {
   if (draw_) return draw_(stage, done, total);
   const auto now = Clock::now();
-  if (now - last_ < pause_of_lines) return;
+  if (is_quiet() || now - last_ < pause_of_lines) return;
   last_ = now;
   print_error_line("ccdt gate: " + std::string(stage) + " (" + std::to_string(done) + " of about " +
                    std::to_string(total) + " after " + duration(seconds_since(begin_)) + ")");

@@ -25,6 +25,7 @@
 #include "tools/mesh_file.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
+#include "tools/streams.h"
 #include "tools/sweep_command.h"
 #include "tools/terminal.h"
 
@@ -67,6 +68,7 @@ void check_surface_output(const std::filesystem::path& file) {
 }
 
 void check_files(const MeshCommand& command) {
+  check_mesh_stream(command.output, command.format);
   io::check_tet_mesh_output(command.output, command.format, command.order, command.partitions > 0);
   check_folder_can_be_written(command.output);
   const MeshOptions& options = command.options;
@@ -96,22 +98,33 @@ bool run(MeshCommand command) {
   if (command.options.deviation > 0) command.required.deviation = command.options.deviation;
   if (command.mesher == "ccdt") keep_freed_memory();
   check_surface_options(command);
+  give_standard_output({command.output, command.report});
   check_files(command);
   if (command.options.threads == 0 && is_small(command)) command.options.threads = 1;
-  bench::RunRecord record;
+  bench::RunRecord record = begin_record(command);
+  const auto write_report = [&] {
+    if (!command.report.empty()) write_text(command.report, bench::to_json(record));
+  };
+  LastRecord last(command.report);
+  last.set(record);
   try {
-    with_progress(command.input, command.options.threads,
-                  [&](const Progress& progress) { mesh_file(command, record, progress); });
+    with_progress(name_of_input(command.input), command.options.threads, [&](const Progress& progress) {
+      mesh_file(command, record, last, [&](std::string_view stage, std::uint64_t done, std::uint64_t total) {
+        if (stage != "estimate") last.enter(stage);
+        report(progress, stage, done, total);
+      });
+    });
   } catch (const baselines::Stopped&) {
-    throw;  // the report stays as it was left for this end
+    leave_last_record();
+    throw;
   } catch (const std::exception& error) {
-    record_failure(command, record, error);
-    if (!command.report.empty()) bench::write_run_record(record, command.report);
+    record.set_failure(baselines::failure_kind_of(error), error.what());
+    write_report();
     throw;
   }
-  if (!command.report.empty()) bench::write_run_record(record, command.report);
+  write_report();
   print(reports::summarize(record));
-  print(command.output, record.missed.empty() ? Tone::good : Tone::bad);
+  print(name_of_output(command.output), record.missed.empty() ? Tone::good : Tone::bad);
   print(": " + reports::in_one_line(record) + "\n");
   return record.missed.empty();
 }
@@ -140,7 +153,9 @@ constexpr const char* mesh_footer =
 
 void add_files(CLI::App& verb, MeshCommand& command) {
   verb.add_option("INPUT", command.input, std::string("surface or PLC: ") + read_plc_endings)->required();
-  verb.add_option("-o,--output", command.output, "mesh: .vtu .msh .msh4 .mesh .meshb .inp .xdmf .polymesh .node")
+  add_input_format(verb, "--input-format", command.input_format, io::plc_format_names());
+  verb.add_option("-o,--output", command.output,
+                  "mesh: .vtu .msh .msh4 .mesh .meshb .inp .xdmf .polymesh .node; - is standard output, with --format")
       ->required();
   verb.add_option("--format", command.format,
                   "format of the mesh, if not that of its extension: msh4 is Gmsh 4.1 (binary), msh Gmsh 2.2 (text), "
@@ -157,8 +172,10 @@ void add_files(CLI::App& verb, MeshCommand& command) {
       ->check(whole_number(1, 1'000'000));
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
-  verb.add_option("--report", command.report,
-                  "write a report of the run to this file, even if the run fails (JSON, schema ccdt.run/1)");
+  verb.add_option(
+      "--report", command.report,
+      "write a report of the run to this file, even if the run fails or is interrupted (JSON, schema ccdt.run/1); "
+      "- is standard output");
 }
 
 void add_requirements(CLI::App& verb, bench::Requirements& required) {
@@ -218,8 +235,8 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "format", "order", "partitions", "surface-output", "report", "repair", "markers",
-                            "mesher", "require-dihedral", "require-r"})
+  for (const char* other : {"output", "input-format", "format", "order", "partitions", "surface-output", "report",
+                            "repair", "markers", "mesher", "require-dihedral", "require-r"})
     std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);

@@ -31,6 +31,7 @@
 #include "tools/options.h"
 #include "tools/part_of_result.h"
 #include "tools/partition_mesh.h"
+#include "tools/streams.h"
 
 namespace ccdt::tools {
 namespace {
@@ -75,15 +76,16 @@ std::vector<std::string> notes_on_unused_options(const MeshCommand& command) {
   return notes;
 }
 
-bench::RunRecord begin_record(const MeshCommand& command, const InputPlc& input) {
-  bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), input, command.options);
-  if (command.mesher != "ccdt") record.set_option("threads", 1.0);
-  record.command = bench::command_line();
+std::string sha256_of_input(const std::string& name) {
+  return is_stream(name) ? bench::sha256_of_text(standard_input().bytes) : bench::sha256_of_file(name);
+}
+
+void note_input(const MeshCommand& command, const InputPlc& input, bench::RunRecord& record) {
+  record.set_input(input);
   record.notes.insert(record.notes.end(), input.notes.begin(), input.notes.end());
   if (!input.marker_names.empty() && command.markers == surface::MarkerSource::file)
     record.notes.push_back(note_of(input.marker_names));
   for (const std::string& note : notes_on_unused_options(command)) record.notes.push_back(note);
-  return record;
 }
 
 /// The input without its faults. What was done is noted.
@@ -169,8 +171,9 @@ std::string words_of(const bench::SurfaceLimit& limit) {
 }
 
 /// Writes the record that remains if the mesher or a limit ends this process: which mesher was asked for what.
-void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record) {
-  if (command.report.empty()) return;
+void leave_provisional_record(const MeshCommand& command, const bench::RunRecord& record, LastRecord& last) {
+  last.set(record);
+  if (command.report.empty() || is_stream(command.report)) return;
   bench::RunRecord unfinished = record;
   unfinished.set_failure(baselines::FailureKind::crashed, "the process ended before the run was finished");
   bench::write_run_record(unfinished, command.report);
@@ -240,7 +243,7 @@ struct Meshed {
 ///
 /// \param factor  of all edge lengths; already in the options
 void mesh_prepared(const MeshCommand& command, double factor, Meshed& meshed, bench::RunRecord& record,
-                   const Progress& progress) {
+                   LastRecord& last, const Progress& progress) {
   const baselines::Mesher& chosen = baselines::mesher(command.mesher);
   meshed.options.tetrahedra = 0;
   meshed.surface = prepared(command, std::move(meshed.surface), meshed.options, progress, record);
@@ -248,7 +251,7 @@ void mesh_prepared(const MeshCommand& command, double factor, Meshed& meshed, be
     record.notes.push_back("all edge lengths were scaled by " + bench::rounded(factor) +
                            " for the wanted number of tetrahedra; the seconds are those of that mesh alone");
   record.mesher_settings = baselines::settings_of(chosen, meshed.surface, meshed.options);
-  leave_provisional_record(command, record);
+  leave_provisional_record(command, record, last);
   meshed.run =
       with_advice_on_input(command.input, [&] { return chosen.run(meshed.surface, meshed.options, progress); });
   check_count(meshed.run.result.mesh.tetrahedra.size(), meshed.options.most_tetrahedra);
@@ -256,27 +259,35 @@ void mesh_prepared(const MeshCommand& command, double factor, Meshed& meshed, be
 
 }  // namespace
 
-void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progress& progress) {
+bench::RunRecord begin_record(const MeshCommand& command) {
+  InputPlc unread;
+  unread.name = name_of_input(command.input);
+  bench::RunRecord record = bench::start_record(baselines::mesher(command.mesher), unread, command.options);
+  if (command.mesher != "ccdt") record.set_option("threads", 1.0);
+  record.command = bench::command_line();
+  return record;
+}
+
+void mesh_file(const MeshCommand& command, bench::RunRecord& record, LastRecord& last, const Progress& progress) {
   report(progress, "read", 0, 0);
-  double read_seconds = 0;
   InputPlc input = [&] {
-    const Stopwatch watch(read_seconds);
-    return io::read_plc(command.input);
+    const Stopwatch watch(record.read_seconds);
+    return read_plc(command.input, command.input_format);
   }();
-  record = begin_record(command, input);
-  record.read_seconds = read_seconds;
-  if (!command.report.empty()) record.input.sha256 = bench::sha256_of_file(command.input);
+  note_input(command, input, record);
+  if (!command.report.empty()) record.input.sha256 = sha256_of_input(command.input);
   MeshOptions options = command.options;
   if (command.repair) input = repaired(input, options.flatness, progress, record);
   mark(command, input, record);
   read_size_files(command, options, record);
+  last.set(record);
 
   const bool is_counted = options.tetrahedra > 0;
   const bench::RunRecord begun = record;
   const auto mesh_with = [&](double factor) {
     record = begun;
     Meshed meshed{is_counted ? input : std::move(input), steps::scaled(options, factor), {}};
-    mesh_prepared(command, factor, meshed, record, progress);
+    mesh_prepared(command, factor, meshed, record, last, progress);
     return meshed;
   };
   Meshed meshed = is_counted ? steps::reach_count(
@@ -291,17 +302,10 @@ void mesh_file(const MeshCommand& command, bench::RunRecord& record, const Progr
   partition(command, meshed.run.result.mesh, record);
   if (!command.surface_output.empty()) io::write_plc(meshed.surface, command.surface_output);
   PartOfResult surface(command.surface_output);
-  io::write_tet_mesh(meshed.run.result.mesh, command.output, command.format, command.order);
+  write_output(command.output, command.format, [&](const std::filesystem::path& file) {
+    io::write_tet_mesh(meshed.run.result.mesh, file, command.format, command.order);
+  });
   surface.keep();
-}
-
-void record_failure(const MeshCommand& command, bench::RunRecord& record, const std::exception& error) {
-  if (record.mesher.name.empty()) {  // the input could not even be read
-    InputPlc unread;
-    unread.name = command.input;
-    record = begin_record(command, unread);
-  }
-  record.set_failure(baselines::failure_kind_of(error), error.what());
 }
 
 }  // namespace ccdt::tools

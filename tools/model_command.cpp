@@ -6,6 +6,7 @@
 #include "tools/commands.h"
 #include "tools/limit_errors.h"
 #include "tools/options.h"
+#include "tools/streams.h"
 #include "tools/terminal.h"
 
 namespace ccdt::tools {
@@ -14,7 +15,7 @@ namespace {
 struct ModelCommand {
   std::string name;
   double edge_length = 0;
-  std::string output;
+  std::string output, format;
 };
 
 std::string model_footer() {
@@ -27,11 +28,13 @@ std::string model_footer() {
 }
 
 void run(const ModelCommand& command) {
+  give_standard_output({command.output});
+  check_surface_stream(command.output, command.format);
   check_can_be_written(command.output);
   with_stage_of_limits(command.output, "model", [&] {
     const plc::InputPlc plc = models::make_solid(command.name, command.edge_length);
-    io::write_plc(plc, command.output);
-    print(command.output + ": " + bench::with_separators(plc.vertices.size()) + " vertices, " +
+    write_output(command.output, command.format, [&](const std::filesystem::path& file) { io::write_plc(plc, file); });
+    print(name_of_output(command.output) + ": " + bench::with_separators(plc.vertices.size()) + " vertices, " +
           bench::with_separators(plc.facet_count()) + " facets\n");
   });
 }
@@ -48,8 +51,10 @@ void add_model_command(CLI::App& app, ExitCode& exit_code) {
   verb->add_option("--edge-length", command->edge_length,
                    "edge length of the triangles, in units of the solid; default: that of the solid")
       ->check(positive_number());
-  verb->add_option("-o,--output", command->output, "surface or PLC: .stl .off .obj .ply .poly .smesh .mesh .meshb")
+  verb->add_option("-o,--output", command->output,
+                   "surface or PLC: .stl .off .obj .ply .poly .smesh .mesh .meshb; - is standard output, with --format")
       ->required();
+  add_surface_format(*verb, command->format);
   verb->footer(model_footer());
   verb->callback([command, &exit_code] {
     run(*command);

@@ -11,6 +11,8 @@
 #include "baselines/mesher.h"
 #include "engine/base/digits.h"
 #include "engine/io/files.h"
+#include "tools/streams.h"
+#include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
@@ -148,6 +150,11 @@ void add_threads(CLI::App& verb, unsigned& threads) {
       ->default_str("all cores");
 }
 
+void add_quiet(CLI::App& verb) {
+  verb.add_flag_callback(
+      "-q,--quiet", [] { send_words(Words::on_failure); }, "print nothing unless something is wrong");
+}
+
 std::string list_line(std::string name, const std::string& what) {
   constexpr std::size_t width = 17;
   name.resize(std::max(width, name.size() + 1), ' ');
@@ -155,11 +162,13 @@ std::string list_line(std::string name, const std::string& what) {
 }
 
 void check_can_be_written(const std::filesystem::path& file) {
+  if (is_stream(file)) return;
   io::check_is_no_folder(file);
   check_folder_can_be_written(file);
 }
 
 void check_folder_can_be_written(const std::filesystem::path& file) {
+  if (is_stream(file)) return;
   std::error_code ignored;
   const auto place = file.has_filename() ? file : file.parent_path();  // without the slash of a folder
   const auto folder = place.has_parent_path() ? place.parent_path() : std::filesystem::path(".");
@@ -172,6 +181,7 @@ void check_folder_can_be_written(const std::filesystem::path& file) {
 
 void check_are_different(const std::filesystem::path& input, const std::filesystem::path& output) {
   std::error_code error;
+  if (is_stream(input) || is_stream(output)) return;
   if (std::filesystem::equivalent(input, output, error) && !error)
     throw OutputError("this would overwrite the input", io::place_in(output.string()), "give the output another name");
 }

@@ -54,12 +54,15 @@ void add_mesh_option(CLI::App& verb, const options::MeshOption& option, MeshOpti
 /// Adds --threads. \param threads  gets their number; 0, which stands for all cores, is the default
 void add_threads(CLI::App& verb, unsigned& threads);
 
+/// Adds --quiet, which is the same in all verbs that have it.
+void add_quiet(CLI::App& verb);
+
 /// A line of a list in --help: a padded name and its meaning.
 std::string list_line(std::string name, const std::string& what);
 
 /// What `io::read_plc` reads, for --help.
 inline constexpr const char* read_plc_endings =
-    ".stl .off .obj .ply .poly .smesh .node .mesh .meshb .msh .vtu .vtp, also with .gz";
+    ".stl .off .obj .ply .poly .smesh .node .mesh .meshb .msh .vtu .vtp, also with .gz; - is standard input";
 
 /// Checks, before hours of work, that the file can be written.
 /// \throw OutputError  its folder does not exist or is not writable, or the path is a folder

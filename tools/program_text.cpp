@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tools/options.h"
+#include "tools/wrapped_lines.h"
 
 namespace ccdt::tools {
 namespace {
@@ -39,10 +40,11 @@ std::string usage_of(const std::string& name, const VerbText& verb) {
 }  // namespace
 
 ProgramText text_of(CLI::App& app) {
-  ProgramText program{app.get_name(), app.get_description(), app.get_footer(), {}};
+  constexpr int width = 78;  // of pages for `man`, which does not wrap examples
+  ProgramText program{app.get_name(), app.get_description(), wrapped(app.get_footer(), width), {}};
   for (CLI::App* one : app.get_subcommands([](CLI::App*) { return true; })) {
     one->footer(std::function<std::string()>());  // the lists that depend on the build
-    VerbText verb{one->get_name(), one->get_description(), "", one->get_footer(), {}};
+    VerbText verb{one->get_name(), one->get_description(), "", wrapped(one->get_footer(), width), {}};
     for (CLI::Option* option : one->get_options([](CLI::Option*) { return true; }))
       verb.options.push_back(text_of(*option));
     std::ranges::stable_partition(verb.options, &OptionText::is_positional);

@@ -1,24 +1,18 @@
 #include "tools/progress_bar.h"
 
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 
 #include "tools/terminal.h"
+#include "tools/wrapped_lines.h"
 
 namespace ccdt::tools {
 namespace {
 
 constexpr std::chrono::milliseconds least_pause{100};
 constexpr int bar_width = 30;
-constexpr int usual_columns = 80;
-
-int terminal_columns() {
-  winsize size{};
-  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : usual_columns;
-}
 
 }  // namespace
 
@@ -38,7 +32,7 @@ std::string progress_line(std::string_view stage, std::uint64_t done, std::uint6
 }
 
 ProgressBar::ProgressBar()
-    : on_terminal_(isatty(STDERR_FILENO) == 1), begin_(Clock::now()), last_(begin_ - least_pause) {}
+    : on_terminal_(isatty(STDERR_FILENO) == 1 && !is_quiet()), begin_(Clock::now()), last_(begin_ - least_pause) {}
 
 ProgressBar::~ProgressBar() {
   erase();
@@ -55,7 +49,8 @@ void ProgressBar::draw(std::string_view stage, std::uint64_t done, std::uint64_t
   stage_ = stage;
   last_ = now;
   const double seconds = std::chrono::duration<double>(now - begin_).count();
-  std::fprintf(stderr, "\r\033[K%s", progress_line(stage, done, total, seconds, terminal_columns()).c_str());
+  std::fprintf(stderr, "\r\033[K%s",
+               progress_line(stage, done, total, seconds, terminal_columns(STDERR_FILENO)).c_str());
   std::fflush(stderr);
   drawn_ = true;
 }
@@ -69,7 +64,7 @@ void ProgressBar::erase() {
 
 void ProgressBar::say(const std::string& line) {
   erase();
-  std::fputs((line + "\n").c_str(), stderr);
+  if (!is_quiet()) print_error_line(line);
 }
 
 }  // namespace ccdt::tools

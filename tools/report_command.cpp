@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <memory>
-#include <sstream>
-#include <utility>
 
 #include "bench/results/sweep_result.h"
 #include "engine/base/errors.h"
@@ -45,16 +43,6 @@ void write_and_print(const reports::Report& report, const std::filesystem::path&
   print("\nThe report is in\n" + place.string() + "\n");
 }
 
-/// The words in indented lines of at most this width.
-std::string in_lines(const std::string& words, std::size_t width) {
-  std::string text;
-  std::istringstream list(words);
-  std::string line = " ";
-  for (std::string word; list >> word; line += " " + word)
-    if (line.size() + 1 + word.size() > width) text += std::exchange(line, " ") + "\n";
-  return text + line + "\n";
-}
-
 void compare(const ReportCommand& command) {
   const std::filesystem::path first = command.folders[0], second = command.folders[1];
   const std::filesystem::path into =
@@ -73,16 +61,15 @@ void run(const ReportCommand& command) {
 
 constexpr const char* report_footer =
     "The folder is one that `ccdt reproduce` or `ccdt sweep` has filled. Everything is made again from the JSON files "
-    "in it:\n"
-    "report.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG), the page index.html, and\n"
+    "in it: report.json, NAME.md, tables/ (Markdown, CSV, LaTeX), figures/ (SVG, PDF, PNG), the page index.html, and "
     "claims.json. The report says what is missing.\n\n"
     "A sweep also gets runs.csv and runs.jsonl, for pandas and R: one line for each run, with these "
     "columns:\n";
 
 constexpr const char* examples =
     "`counted`: no for a warm-up run. `file`: the whole record. `seconds`: meshing alone. `verified` and `kind` are "
-    "empty\nif the record does not say. Each option of the sweep has a column option_NAME. Unknown values are empty in "
-    "CSV\nand null in JSON.\n\n"
+    "empty if the record does not say. Each option of the sweep has a column option_NAME. Unknown values are empty in "
+    "CSV and null in JSON.\n\n"
     "Example: measure one experiment again, then update the report\n"
     "  ccdt reproduce fig8 -o build/full --scale full && ccdt report build/full\n"
     "Example: compare two folders; the report goes to new/comparison\n"
@@ -123,7 +110,7 @@ void add_report_command(CLI::App& app, ExitCode& exit_code) {
       ->expected(1, 2)
       ->check(CLI::ExistingDirectory);
   verb->add_option("-o,--output", command->output, "folder for a comparison; default: comparison in the second DIR");
-  verb->footer(report_footer + in_lines(results::run_columns_help(), 116) + examples);
+  verb->footer(report_footer + ("  " + results::run_columns_help()) + "\n" + examples);
   verb->callback([command, &exit_code] {
     if (command->folders.size() == 1 && !command->output.empty())
       throw CLI::ValidationError("--output", "use it with two folders only: a report is written to its own folder");

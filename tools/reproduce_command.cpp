@@ -215,10 +215,10 @@ std::string reproduce_footer() {
   text += list_line(claims_name, "all experiments that test a claim of the paper") + "\nScales:\n";
   for (const NamedScale& scale : named_scales) text += list_line(scale.name, scale.what);
   return text +
-         "\nEvery run is a separate process. Its report stays in DIR/runs; that of an experiment is DIR/NAME.json.\n"
-         "Nothing is run twice: if the command is stopped, call it again, and it continues where it was.\n"
+         "\nEvery run is a separate process. Its report stays in DIR/runs; that of an experiment is DIR/NAME.json. "
+         "Nothing is run twice: if the command is stopped, call it again, and it continues where it was. "
          "A case that fails is a row with the reason. At the end, tables, figures and the page are made from "
-         "all\nexperiments in DIR, as by `ccdt report DIR`.\n\n"
+         "all experiments in DIR, as by `ccdt report DIR`.\n\n"
          "Example: reproduce the whole paper, in minutes\n"
          "  ccdt reproduce -o build/reproduction\n"
          "Example: reproduce Table 1 and Fig. 8 at the paper's size\n"

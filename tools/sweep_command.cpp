@@ -127,14 +127,14 @@ void print_status(const SweepCommand& command) {
   }
   bench::Json json = sweep::to_json(status);
   if (chunks) json["chunks"] = to_json(*chunks);
-  print(bench::to_text(json));
+  print_data(bench::to_text(json));
 }
 
 void print_estimate(const SweepCommand& command) {
   const KnownSweep known = look_at(command);
   const auto estimates = sweep::estimate_cases(known.sweep.cases, known.measured);
   const sweep::SweepEstimate sum = sweep::sum_of(known.sweep.cases, known.measured, estimates);
-  print(command.json ? bench::to_text(sweep::to_json(sum)) : sweep::in_words(sum));
+  command.json ? print_data(bench::to_text(sweep::to_json(sum))) : print(sweep::in_words(sum));
 }
 
 ExitCode run_all(const SweepCommand& command) {
@@ -171,10 +171,10 @@ bool is_fault(const bench::MeasuredCase& measured) {
 
 constexpr const char* sweep_footer =
     "The spec (JSON, schema ccdt.sweep/1) says which models and files, in which sizes, are meshed by which meshers "
-    "with\n"
-    "which options. Each run is a separate process with limits of time and memory; its report is a file in DIR/runs.\n"
-    "Nothing is run twice: if the command is stopped, call it again, and it continues where it was. A case that "
-    "fails\nis a result like any other. These specs come with the program:\n\n"
+    "with which options. Each run is a separate process with limits of time and memory; its report is a file in "
+    "DIR/runs. Nothing is run twice: if the command is stopped, call it again, and it continues where it was. A case "
+    "that "
+    "fails is a result like any other. These specs come with the program:\n\n"
     "  scaling          our models of the paper's parts from 10^4 to 10^7 tetrahedra, with all meshers\n"
     "  strategies       every strategy of every stage\n"
     "  parts            your files, with all meshers: --input 'parts/*.off'\n\n"
@@ -184,7 +184,7 @@ constexpr const char* sweep_footer =
     "  ccdt sweep scaling -o build/scaling && ccdt report build/scaling\n"
     "Example: all meshers on parts of your own\n"
     "  ccdt sweep parts -o build/parts --input 'parts/*.off'\n"
-    "Example: run it on a cluster with Slurm. All nodes must see the folder and the program. Variables such as\n"
+    "Example: run it on a cluster with Slurm. All nodes must see the folder and the program. Variables such as "
     "SBATCH_PARTITION set other options of sbatch. Call it again to submit lost runs\n"
     "  ccdt sweep scaling -o build/scaling --slurm --chunk-minutes 60\n"
     "Example: how far is it?\n"

@@ -11,15 +11,33 @@
 #include <system_error>
 
 #include "engine/base/errors.h"
+#include "tools/wrapped_lines.h"
 
 namespace ccdt::tools {
 namespace {
+
+Words words = Words::to_output;
+std::string kept;        // for a failure
+std::size_t column = 0;  // of the next word
+
+std::FILE* stream_of_words() {
+  return words == Words::to_output ? stdout : stderr;
+}
+
+bool is_terminal(std::FILE* stream) {
+  return isatty(fileno(stream)) == 1;
+}
+
+[[noreturn]] void fail_to_print() {
+  throw OutputError("cannot be written: " + std::generic_category().message(errno), {.file = "standard output"},
+                    "check the disk, or the file or program to which it goes");
+}
 
 bool has_colors() {
   const char* no_color = std::getenv("NO_COLOR");
   const char* terminal = std::getenv("TERM");
   const bool refuses = no_color != nullptr && *no_color != '\0';
-  return !refuses && terminal != nullptr && std::string_view(terminal) != "dumb" && isatty(STDOUT_FILENO) == 1;
+  return !refuses && terminal != nullptr && std::string_view(terminal) != "dumb" && is_terminal(stream_of_words());
 }
 
 const char* code_of(Tone tone) {
@@ -68,23 +86,49 @@ std::string printable(std::string_view text) {
   return safe;
 }
 
+void send_words(Words where) {
+  words = where;
+}
+
+bool is_quiet() {
+  return words == Words::on_failure;
+}
+
 void print(std::string_view text) {
-  std::fputs(printable(text).c_str(), stdout);
+  std::string safe = printable(text);
+  if (is_quiet()) {
+    kept += safe;
+    return;
+  }
+  std::FILE* const stream = stream_of_words();
+  if (is_terminal(stream)) safe = wrapped(safe, terminal_columns(fileno(stream)), column);
+  column = safe.rfind('\n') == std::string::npos ? column + safe.size() : safe.size() - safe.rfind('\n') - 1;
+  std::fputs(safe.c_str(), stream);
 }
 
 void print(std::string_view text, Tone tone) {
-  if (!has_colors()) return print(text);
-  std::fputs((code_of(tone) + printable(text) + "\033[0m").c_str(), stdout);
+  const bool colored = has_colors() && !is_quiet();
+  if (colored) std::fputs(code_of(tone), stream_of_words());
+  print(text);
+  if (colored) std::fputs("\033[0m", stream_of_words());
+}
+
+void print_data(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail_to_print();
+}
+
+void print_help(const std::string& help) {
+  print_data(wrapped(printable(help), terminal_columns(STDOUT_FILENO)));
 }
 
 void print_error_line(std::string_view text) {
-  std::fputs((printable(text) + "\n").c_str(), stderr);
+  const std::string line = printable(text) + "\n";
+  std::fputs(is_terminal(stderr) ? wrapped(line, terminal_columns(STDERR_FILENO)).c_str() : line.c_str(), stderr);
 }
 
-void flush_output() {
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw OutputError("cannot be written: " + std::generic_category().message(errno), {.file = "standard output"},
-                      "check the disk, or the file or program to which it goes");
+void finish_output(bool failed) {
+  if (failed) std::fputs(kept.c_str(), stderr);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) fail_to_print();
 }
 
 }  // namespace ccdt::tools

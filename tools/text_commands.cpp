@@ -20,7 +20,7 @@ namespace {
 void write_man_pages(const ProgramText& program, const std::filesystem::path& folder) {
   const std::vector<ManPage> pages = man_pages(program, std::string(engine_version));
   if (folder.empty()) {
-    for (const ManPage& page : pages) print(page.text);
+    for (const ManPage& page : pages) print_data(page.text);
     return;
   }
   std::filesystem::create_directories(folder);
@@ -67,7 +67,7 @@ void add_completion_command(CLI::App& app, ExitCode& exit_code) {
       "  source <(ccdt completion zsh)\n"
       "  ccdt completion fish | source\n");
   verb->callback([shell, &app, &exit_code] {
-    print(completion_script(text_of(app), *shell));
+    print_data(completion_script(text_of(app), *shell));
     exit_code = done;
   });
 }
@@ -93,12 +93,36 @@ void add_man_command(CLI::App& app, ExitCode& exit_code) {
     with_stage_of_limits(command->folder, "write", [&] {
       const ProgramText program = text_of(app);
       if (command->schema)
-        print(schemas_of_options().dump() + "\n");
+        print_data(schemas_of_options().dump() + "\n");
       else if (command->markdown)
-        print(markdown_reference(program));
+        print_data(markdown_reference(program));
       else
         write_man_pages(program, command->folder);
     });
+    exit_code = done;
+  });
+}
+
+void add_help_command(CLI::App& app, ExitCode& exit_code) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* verb = app.add_subcommand("help", "print the help of a verb");
+  std::vector<std::string> names;
+  for (const CLI::App* other : app.get_subcommands({})) names.push_back(other->get_name());
+  verb->add_option("VERB", *name, "verb; default: the list of all verbs")->check(one_of(names));
+  verb->footer("Example: `ccdt help mesh` prints the same as `ccdt mesh --help`\n");
+  verb->callback([name, &app, &exit_code] {
+    const CLI::App* const helped = name->empty() ? &app : app.get_subcommand(*name);
+    const std::string program = name->empty() ? "" : app.get_name() + " ";
+    print_help(app.get_formatter()->make_help(helped, program + helped->get_name(), CLI::AppFormatMode::Normal));
+    exit_code = done;
+  });
+}
+
+void add_version_command(CLI::App& app, ExitCode& exit_code) {
+  CLI::App* verb = app.add_subcommand("version", "print the version");
+  verb->footer("Example: `ccdt version` prints the same as `ccdt --version`\n");
+  verb->callback([&app, &exit_code] {
+    print(app.version() + "\n");
     exit_code = done;
   });
 }

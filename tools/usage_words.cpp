@@ -33,14 +33,14 @@ std::string unexpected_word(const CLI::App& verb, const std::string& remedy) {
 
 std::string usage_in_words(const CLI::App& app, const CLI::Error& error) {
   const std::vector<CLI::App*> verbs = app.get_subcommands();
-  if (verbs.empty()) return wrong_verb(app) + "\n";
+  if (verbs.empty()) return wrong_verb(app);
   const std::string remedy = "`ccdt " + verbs.front()->get_name() + " --help` lists the options";
   if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr && !verbs.front()->remaining().empty())
-    return unexpected_word(*verbs.front(), remedy) + "\n";
+    return unexpected_word(*verbs.front(), remedy);
   std::string what = error.what();
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr)  // "--output: 1 required TEXT missing"
     what = what.substr(0, what.find(':')) + " needs a value";
-  return "ccdt: " + what + "\n  " + remedy + "\n";
+  return "ccdt: " + what + "\n  " + remedy;
 }
 
 }  // namespace ccdt::tools

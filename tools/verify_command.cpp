@@ -15,13 +15,14 @@
 #include "tools/markers.h"
 #include "tools/options.h"
 #include "tools/progress_bar.h"
+#include "tools/streams.h"
 #include "tools/terminal.h"
 
 namespace ccdt::tools {
 namespace {
 
 struct VerifyCommand {
-  std::string input, mesh, report;
+  std::string input, input_format, mesh, mesh_format, report;
   bool details = false;
   verify::VerifyOptions options;
   MarkerOptions markers;
@@ -30,41 +31,41 @@ struct VerifyCommand {
 
 bool run(const VerifyCommand& command) {
   keep_freed_memory();
+  give_standard_output({command.report});
   if (!command.report.empty()) {
     check_can_be_written(command.report);
     check_are_different(command.input, command.report);
     check_are_different(command.mesh, command.report);
   }
-  const verify::Verification verification = with_progress(command.mesh, command.threads, [&](const Progress& progress) {
-    InputPlc input;
-    TetMesh mesh;
-    const auto read_input = [&] {
-      input = io::read_plc(command.input);
-      mark(input, command.markers, command.options.flatness);
-      if (auto triangulated = plc::triangulate_warped_facets(input)) input = std::move(*triangulated);
-    };
-    std::exception_ptr bad_mesh;  // kept, because errors of the input are reported first
-    const auto read_mesh = [&] {
-      try {
-        mesh = io::read_tet_mesh(command.mesh);
-      } catch (...) {
-        bad_mesh = std::current_exception();
-      }
-    };
-    // The mesh is read on the caller's thread, which can reuse the memory that reading takes.
-    parallel_both(read_mesh, read_input);
-    if (bad_mesh) std::rethrow_exception(bad_mesh);
-    return verify::verify(input, mesh, command.options, progress);
-  });
+  const verify::Verification verification =
+      with_progress(name_of_input(command.mesh), command.threads, [&](const Progress& progress) {
+        InputPlc input;
+        TetMesh mesh;
+        const auto read_input = [&] {
+          input = read_plc(command.input, command.input_format);
+          mark(input, command.markers, command.options.flatness);
+          if (auto triangulated = plc::triangulate_warped_facets(input)) input = std::move(*triangulated);
+        };
+        std::exception_ptr bad_mesh;  // kept, because errors of the input are reported first
+        const auto read_mesh = [&] {
+          try {
+            mesh = read_tet_mesh(command.mesh, command.mesh_format);
+          } catch (...) {
+            bad_mesh = std::current_exception();
+          }
+        };
+        // The mesh is read on the caller's thread, which can reuse the memory that reading takes.
+        parallel_both(read_mesh, read_input);
+        if (bad_mesh) std::rethrow_exception(bad_mesh);
+        return verify::verify(input, mesh, command.options, progress);
+      });
   const std::string text = command.details ? reports::to_terminal(verification) : reports::summarize(verification);
-  print(text + command.mesh + ": ");
+  print(text + name_of_input(command.mesh) + ": ");
   verification.ok() ? print("right", Tone::good) : print("WRONG", Tone::bad);
   print("\n");
-  if (!command.report.empty()) {
-    io::OutputFile report(command.report);
-    report << reports::to_json(verification, command.input, command.mesh);
-    report.commit();
-  }
+  if (!command.report.empty())
+    write_text(command.report,
+               reports::to_json(verification, name_of_input(command.input), name_of_input(command.mesh)));
   return verification.ok();
 }
 
@@ -74,8 +75,11 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   auto command = std::make_shared<VerifyCommand>();
   CLI::App* verb =
       app.add_subcommand("verify", "check exactly that a mesh, made by any mesher, is right for its input");
-  verb->add_option("INPUT", command->input, "surface or PLC that was meshed")->required();
-  verb->add_option("MESH", command->mesh, "mesh to check: .vtu .msh .msh4 .mesh .meshb .node")->required();
+  verb->add_option("INPUT", command->input, "surface or PLC that was meshed; - is standard input")->required();
+  add_input_format(*verb, "--input-format", command->input_format, io::plc_format_names());
+  verb->add_option("MESH", command->mesh, "mesh to check: .vtu .msh .msh4 .mesh .meshb .node; - is standard input")
+      ->required();
+  add_input_format(*verb, "--mesh-format", command->mesh_format, io::tet_mesh_formats());
   verb->add_option(
           "--flatness", command->options.flatness,
           "tolerance for flat facets and equal positions, as a fraction of the bounding box; the default is larger "
@@ -97,7 +101,8 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   add_choice(*verb, "--lists", command->options.lists, "what the mesh must list");
   add_threads(*verb, command->threads);
   verb->add_flag("--details", command->details, "list all checks, not only those that failed");
-  verb->add_option("--report", command->report, "write all checks to this file as JSON (schema ccdt.verify/1)");
+  verb->add_option("--report", command->report,
+                   "write all checks to this file as JSON (schema ccdt.verify/1); - is standard output");
   verb->footer(
       "Exit codes: 0 the mesh is right; 1 it is wrong.\n\n"
       "Example: check that the mesh fills the part exactly\n"
@@ -109,6 +114,8 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
       "Example: check that the mesh of a remeshed surface is nowhere farther than 0.1 from the part\n"
       "  ccdt verify --within 0.1 part.stl part.vtu\n");
   verb->callback([command, &exit_code] {
+    if (is_stream(command->input) && is_stream(command->mesh))
+      throw CLI::ValidationError("-", "standard input is either INPUT or MESH");
     if (command->options.within) command->options.surface = verify::VerifyOptions::Surface::own;
     exit_code = with_stage_of_limits(command->mesh, "report", [&] { return run(*command); }) ? done : failed_a_check;
   });

@@ -246,6 +246,13 @@ void RunRecord::set_option(std::string_view name, const Option& value) {
     options.emplace_back(name, value);
 }
 
+void RunRecord::set_input(const InputPlc& its) {
+  input.name = its.name;
+  input.vertices = its.vertices.size();
+  input.facets = its.facet_count();
+  input.segments = its.segments.size();
+}
+
 void RunRecord::set_costs(const StageCosts& its) {
   costs = its;
   for (const StageCost& cost : costs.stages)
@@ -270,10 +277,7 @@ RunRecord start_record(const baselines::Mesher& mesher, const InputPlc& input, c
   record.environment = capture_environment();
   record.mesher = {mesher.name, baselines::version_of(mesher),
                    mesher.name == "ccdt" ? record.environment.revision : ""};
-  record.input.name = input.name;
-  record.input.vertices = input.vertices.size();
-  record.input.facets = input.facet_count();
-  record.input.segments = input.segments.size();
+  record.set_input(input);
   MeshOptions own = options;
   for (const options::MeshOption& option : options::mesh_options()) {
     if ((option.name == "sharp-angle" || option.name == "deviation") && !surface::makes_new_surface(options.surface))

@@ -71,6 +71,9 @@ struct RunRecord {
   std::vector<std::string> notes;                        ///< what a reader must know
   std::map<std::string, std::vector<double>> samples;    ///< raw seconds by name, if one record stands for several runs
 
+  /// Sets the name and the counts of the input.
+  void set_input(const InputPlc& its);
+
   /// Sets the costs, and the limits that are counted among them.
   void set_costs(const StageCosts& its);
 

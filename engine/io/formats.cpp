@@ -126,6 +126,8 @@ constexpr TetMeshFormat mesh_formats[] = {
     {.ending = ".face", .read_files = read_tetgen_mesh, .write_files = write_tetgen_mesh},
 };
 
+constexpr const char* read_plc_endings =
+    ".stl, .off, .obj, .ply, .poly, .smesh, .node, .mesh, .meshb, .msh, .vtu and .vtp";
 constexpr const char* read_mesh_endings =
     ".mesh and .meshb (Medit), .vtu (VTK), .msh and .msh4 (Gmsh), .node, .ele and .face (TetGen)";
 constexpr const char* written_mesh_endings =
@@ -260,21 +262,31 @@ bool is_plc_file(const std::filesystem::path& file) {
   return format_of(without_gzip(file), plc_formats) != nullptr;
 }
 
-plc::InputPlc read_plc(const std::filesystem::path& file) {
-  const PlcFormat* format = format_of(without_gzip(file), plc_formats);
-  if (!format)
-    fail_to_read(
-        file, ".stl, .off, .obj, .ply, .poly, .smesh, .node, .mesh, .meshb, .msh, .vtu and .vtp, each also with .gz");
-  const FileBytes bytes = read_inflated_file(file);
-  const std::string_view shown = ending_shown_by(bytes);
-  const PlcFormat* const contents = shown.empty() ? format : std::ranges::find(plc_formats, shown, &PlcFormat::ending);
-  plc::InputPlc plc = contents->read(bytes);
-  plc.name = file.string();
+plc::InputPlc read_plc(const FileBytes& file, const std::string& format) {
+  const std::string ending = format.empty() ? lower_ending(without_gzip(file.name)) : "." + format;
+  const std::string_view shown = ending_shown_by(file);
+  const PlcFormat* const contents = format_called(shown.empty() ? ending : shown, plc_formats);
+  if (!contents)
+    throw InputError("its format is not known", place_in(file.name), std::string("name one of ") + read_plc_endings);
+  plc::InputPlc plc = contents->read(file);
+  plc.name = file.name;
   drop_bridge_walls(plc);
-  if (contents != format)
-    plc.notes.push_back("the file is named '" + std::string(format->ending) + "' but contains " +
-                        std::string(contents->name) + ", and was read as such");
+  if (contents->ending != ending && !ending.empty())
+    plc.notes.push_back("the file is named '" + ending + "' but contains " + std::string(contents->name) +
+                        ", and was read as such");
   return plc;
+}
+
+plc::InputPlc read_plc(const std::filesystem::path& file) {
+  if (!is_plc_file(file)) fail_to_read(file, std::string(read_plc_endings) + ", each also with .gz");
+  return read_plc(read_inflated_file(file), {});
+}
+
+std::vector<std::string> plc_format_names(bool written) {
+  std::vector<std::string> names;
+  for (const PlcFormat& format : plc_formats)
+    if (format.write || !written) names.emplace_back(format.ending.substr(1));
+  return names;
 }
 
 bool keeps_markers(const std::filesystem::path& file) {
@@ -291,6 +303,11 @@ void write_plc(const plc::InputPlc& plc, const std::filesystem::path& file) {
   OutputFile out(file);
   format->write(plc, out);
   out.commit();
+}
+
+bool is_one_file(const std::string& format) {
+  const TetMeshFormat* const found = format_called("." + format, mesh_formats);
+  return found && (found->write || found->write_nodes);
 }
 
 bool is_tet_mesh_file(const std::filesystem::path& file) {
@@ -323,6 +340,14 @@ mesh::TetMesh read_tet_mesh(const std::filesystem::path& file) {
   const TetMeshFormat* format = format_of(file, mesh_formats);
   if (!format || (!format->read && !format->read_files)) fail_to_read(file, read_mesh_endings);
   return format->read ? format->read(read_whole_file(file)) : format->read_files(file);
+}
+
+mesh::TetMesh read_tet_mesh(const FileBytes& file, const std::string& format) {
+  const TetMeshFormat* const found = format_called("." + format, mesh_formats);
+  if (!found || !found->read)
+    throw InputError("no mesh can be read from one file of the format '" + format + "'", place_in(file.name),
+                     "choose .mesh, .meshb, .msh or .msh4");
+  return found->read(file);
 }
 
 }  // namespace ccdt::io

@@ -18,6 +18,12 @@
 /// `write_tet_mesh` choose among them by the ending.
 namespace ccdt::io {
 
+/// `read_plc` of a file in memory.
+/// \param format  one of `plc_format_names`; empty: that of the extension of the file's name
+plc::InputPlc read_plc(const FileBytes& file, const std::string& format);
+/// `read_tet_mesh` of a file in memory. \param format  one of `tet_mesh_formats` with `is_one_file`
+mesh::TetMesh read_tet_mesh(const FileBytes& file, const std::string& format);
+
 /// Surfaces and piecewise linear complexes. No reader builds a mesh structure: the caller gets the contents of the
 /// file, manifold or not. (OpenMesh's readers drop faces that do not fit a half-edge mesh, read coordinates in single
 /// precision, and ignore truncation and NaN. So they serve only as an independent reader in our tests.) The readers

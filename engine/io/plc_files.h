@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "engine/plc/input.h"
 
@@ -18,6 +20,9 @@ bool is_plc_file(const std::filesystem::path& file);
 ///                    coordinates, index out of range, counts that contradict the size of the file; with file, line or
 ///                    byte, and a remedy
 plc::InputPlc read_plc(const std::filesystem::path& file);
+
+/// The names of all formats that are read, or of those that are written: their extensions without the dot.
+std::vector<std::string> plc_format_names(bool written = false);
 
 /// Do the markers of facets survive in a file with this extension that `write_plc` writes?
 bool keeps_markers(const std::filesystem::path& file);

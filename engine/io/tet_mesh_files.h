@@ -25,6 +25,9 @@ void check_tet_mesh_output(const std::filesystem::path& file, const std::string&
 /// The names of all formats: their extensions without the dot.
 std::vector<std::string> tet_mesh_formats();
 
+/// Is a mesh in this format one file, and not a folder or several files?
+bool is_one_file(const std::string& format);
+
 /// Writes a mesh; the extension determines the format, unless one is given: .mesh (Medit, text), .meshb (Medit,
 /// binary), .vtu (VTK, compressed; faces and edges in a second file .boundary.vtu), .msh (Gmsh 2.2, text), .msh4
 /// (Gmsh 4.1, binary), .inp (Abaqus and CalculiX), .xdmf (FEniCS; faces in a second file .boundary.xdmf), .polymesh (a

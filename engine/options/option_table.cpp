@@ -77,7 +77,7 @@ std::vector<MeshOption> make_table() {
        .of_remeshing = true},
       {.name = "deviation",
        .kind = NumberKind{.member = [](MeshOptions& o) -> double& { return o.deviation; }, .excludes_least = true},
-       .what = "the new surface stays within this distance of the input's, in units of the input; default: any\n"
+       .what = "the new surface stays within this distance of the input's, in units of the input; default: any "
                "distance, or with --surface auto a ten-thousandth of the diagonal of the bounding box",
        .in_report = "in units of the input; 0: the default; only with remesh and auto",
        .needs = remeshing,
@@ -120,7 +120,7 @@ std::vector<MeshOption> make_table() {
        .needs = improvement},
       {.name = "edge-length",
        .kind = NumberKind{.member = [](MeshOptions& o) -> double& { return o.edge_length; }, .excludes_least = true},
-       .what = "target edge length in units of the input; default: that of the surface,\n"
+       .what = "target edge length in units of the input; default: that of the surface, "
                "or with --surface refine and auto a fortieth of the diagonal of the bounding box",
        .in_report = "in units of the input; 0: that of the surface",
        .of_inside = true,

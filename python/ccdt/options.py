@@ -107,7 +107,7 @@ def _description(name):
     option = TABLE[name]
     what = _in_keywords(option["what"])
     if name == "threads":
-        what += "; default: all cores"
+        what += "; default: all cores, or one where little is to be done"
     if name == "sizes":
         what += "; or (points, lengths), or (points, tetrahedra, lengths)"
     if name == "size_field":

@@ -3,6 +3,7 @@
 import numpy as np
 
 from . import _engine, arrays
+from .verification import verify
 
 
 class Mesh:
@@ -104,6 +105,10 @@ class Mesh:
     def volumes(self):
         """(m,) array, in the units of the input cubed; negative where a tetrahedron is inverted."""
         return _engine.volumes(self._mesh)
+
+    def verify(self, input, /, **options):
+        """Checks exactly that the mesh is right for its input: ``ccdt.verify(self, input, **options)``."""
+        return verify(self, input, **options)
 
     def to_meshio(self):
         """A ``meshio.Mesh`` of tetrahedra, then triangles, with their numbers and markers as ``ccdt``."""

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 #include <string>
@@ -137,6 +138,14 @@ class EarlyEnd : public Program {
     }
   }
 
+  /// After a signal: a record that is there says so, unless the run was finished.
+  void expect_interrupted(const Call& call) const {
+    if (call.record.empty() || !std::filesystem::exists(work() / call.record)) return;
+    const nlohmann::json record = nlohmann::json::parse(text_of(work() / call.record));
+    EXPECT_EQ(record.value("kind", "interrupted"), "interrupted");
+    EXPECT_EQ(record["status"], record.contains("kind") ? "failed" : "ok");
+  }
+
   /// Calls the program undisturbed, and then `disturb(whole, seconds)`.
   template <class Disturb>
   void with_results_of(const Call& call, const Disturb& disturb) const {
@@ -168,6 +177,7 @@ class EarlyEnd : public Program {
         const int code = code_of(child);
         EXPECT_TRUE(code == 128 + number || call.ends.contains(code)) << code << "\n" << said();
         ended += code == 128 + number;
+        if (code == 128 + number) expect_interrupted(call);
         expect_no_remains(call, before, whole);
         remove_made(before);
       }
@@ -222,7 +232,8 @@ TEST_F(EarlyEnd, OfADescribedMesherRemovesItsScratchFolder) {
                          "command": ["/bin/sh", "-c", "sleep 0.4; cp )" +
                          (work() / "good.mesh").string() +
                          R"( out.mesh"], "input_format": "off", "output": "out.mesh"})");
-  end_at_random({{"mesh", "part.off", "-o", "o.vtu", "--mesher", "slow.json"}, {"o.vtu"}});
+  end_at_random(
+      {{"mesh", "part.off", "-o", "o.vtu", "--mesher", "slow.json", "--report", "r.json"}, {"o.vtu"}, "r.json"});
 }
 
 TEST_F(EarlyEnd, WithoutMemoryIsALimitThatNamesTheFile) {
@@ -244,7 +255,11 @@ TEST_F(EarlyEnd, OfStandardOutputIsAnError) {
     const int status = std::system(("sh -c '" + call + "'").c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   };
-  for (const std::string arguments : {"mesh part.off -o o.vtu", "check part.off", "man --markdown", "completion bash"})
+  for (const std::string arguments :
+       {"mesh part.off -o o.vtu", "check part.off", "man --markdown", "completion bash", "--help", "mesh --help",
+        "help mesh", "--version", "version", "verify part.off part.vtu", "improve part.vtu -o o.mesh",
+        "model cube -o o.off", "report swept", "sweep spec.json -o swept --status",
+        "gate part.json --against part.json", "mesh part.off -o - --format mesh", "check part.off --report -"})
     EXPECT_EQ(code_of(arguments), 3) << arguments;
 }
 

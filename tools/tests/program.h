@@ -33,10 +33,14 @@ class Program : public testing::Test {
 
   Outcome run(const std::string& arguments) const { return run_in(".", arguments); }
 
-  Outcome run_in(const std::string& folder, const std::string& arguments) const {
+  /// With standard input from this file.
+  Outcome run_on(const std::string& input, const std::string& arguments) const { return run_in(".", arguments, input); }
+
+  Outcome run_in(const std::string& folder, const std::string& arguments,
+                 const std::string& input = "/dev/null") const {
     const auto quoted = [](const std::filesystem::path& path) { return "'" + path.string() + "'"; };
     const std::string command = "cd " + quoted(work() / folder) + " && " + quoted(CCDT_PROGRAM) + " " + arguments +
-                                " </dev/null >" + quoted(folder_ / "out") + " 2>" + quoted(folder_ / "err");
+                                " <" + quoted(input) + " >" + quoted(folder_ / "out") + " 2>" + quoted(folder_ / "err");
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder_ / "out"), text_of(folder_ / "err")};
   }

@@ -191,6 +191,18 @@ std::vector<Case> cases() {
   return all;
 }
 
+TEST(Threads, AreAsManyAsThereIsWorkFor) {
+  const InputPlc cube = models::make_solid("cube", 1);
+  const auto most_threads = [&](const MeshOptions& options) {
+    unsigned most = 0;
+    mesh_plc(cube, options, [&](auto...) { most = std::max(most, thread_count()); });
+    return most;
+  };
+  EXPECT_EQ(most_threads({}), 1u);
+  EXPECT_EQ(most_threads({.threads = 3}), 3u);
+  EXPECT_EQ(most_threads({.edge_length = 0.1}), thread_backend::core_count());
+}
+
 TEST(Threads, MakeOneMesh) {
   for (const Case& c : cases()) {
     MeshOptions options;
