@@ -147,8 +147,7 @@ void add_check_command(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   add_threads(*verb, command->threads);
   verb->add_flag("--details", command->details, "list the first 1,000 places of each fault, not only three");
-  verb->add_option("--report", command->report,
-                   "write all faults to this file as JSON (schema ccdt.check/1); - is standard output");
+  add_report(*verb, "write all faults to this file as JSON (schema ccdt.check/1)", command->report);
   verb->footer(
       "Errors keep an input from being meshed; notes do not, but the input may not be what was meant. "
       "Facets are numbered from 0, as in the file.\n"

@@ -186,4 +186,11 @@ void check_are_different(const std::filesystem::path& input, const std::filesyst
     throw OutputError("this would overwrite the input", io::place_in(output.string()), "give the output another name");
 }
 
+void add_report(CLI::App& verb, const std::string& what, std::string& report) {
+  CLI::Option* const option = verb.add_option("--report", report, what + "; - is standard output");
+  verb.add_flag_callback(
+          "--json", [&report] { report = "-"; }, "write the report to standard output, and nothing else there")
+      ->excludes(option);
+}
+
 }  // namespace ccdt::tools

@@ -60,9 +60,16 @@ void add_quiet(CLI::App& verb);
 /// A line of a list in --help: a padded name and its meaning.
 std::string list_line(std::string name, const std::string& what);
 
-/// What `io::read_plc` reads, for --help.
+/// Adds --report, and --json for a report on standard output.
+///
+/// \param what    the help of --report
+/// \param report  `-`: standard output
+void add_report(CLI::App& verb, const std::string& what, std::string& report);
+
+/// What `read_plc` reads, for --help.
 inline constexpr const char* read_plc_endings =
-    ".stl .off .obj .ply .poly .smesh .node .mesh .meshb .msh .vtu .vtp, also with .gz; - is standard input";
+    ".stl .off .obj .ply .poly .smesh .node .mesh .meshb .msh .vtu .vtp, also with .gz; by Gmsh .step .stp .iges .igs "
+    ".brep; - is standard input";
 
 /// Checks, before hours of work, that the file can be written.
 /// \throw OutputError  its folder does not exist or is not writable, or the path is a folder

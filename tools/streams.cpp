@@ -12,6 +12,7 @@
 #include "engine/io/plc_files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "tools/options.h"
+#include "tools/read_cad.h"
 #include "tools/terminal.h"
 
 namespace ccdt::tools {
@@ -64,6 +65,7 @@ void add_surface_format(CLI::App& verb, std::string& format) {
 
 plc::InputPlc read_plc(const std::string& name, const std::string& format) {
   if (is_stream(name)) return io::read_plc(standard_input(), format);
+  if (format.empty() && is_cad_file(name)) return read_cad(name);
   return format.empty() ? io::read_plc(name) : io::read_plc(io::read_inflated_file(name), format);
 }
 

@@ -101,8 +101,7 @@ void add_verify_command(CLI::App& app, ExitCode& exit_code) {
   add_choice(*verb, "--lists", command->options.lists, "what the mesh must list");
   add_threads(*verb, command->threads);
   verb->add_flag("--details", command->details, "list all checks, not only those that failed");
-  verb->add_option("--report", command->report,
-                   "write all checks to this file as JSON (schema ccdt.verify/1); - is standard output");
+  add_report(*verb, "write all checks to this file as JSON (schema ccdt.verify/1)", command->report);
   verb->footer(
       "Exit codes: 0 the mesh is right; 1 it is wrong.\n\n"
       "Example: check that the mesh fills the part exactly\n"

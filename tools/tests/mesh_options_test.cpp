@@ -24,7 +24,7 @@ std::set<std::string> options_in(const std::string& help) {
 TEST_F(Program, MeshHasTheOptionsWhoseEffectsAreKnown) {
   std::set<std::string> listed = options_in(run("mesh --help").out);
   for (const char* no_effect :
-       {"help", "quiet", "output", "input-format", "format", "order", "partitions", "surface-output", "report",
+       {"help", "quiet", "output", "input-format", "format", "order", "partitions", "surface-output", "report", "json",
         "repair", "markers", "mesher", "require-dihedral", "require-r"})
     EXPECT_EQ(listed.erase(no_effect), 1u) << no_effect;
   EXPECT_EQ(listed.erase("strategies"), 1u) << "it stands for others";

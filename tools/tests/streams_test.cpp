@@ -79,10 +79,12 @@ TEST_F(Streams, GetReportsAndNothingElse) {
   EXPECT_EQ(report["counts"], of_file["counts"]);
   EXPECT_EQ(report["input"]["sha256"], of_file["input"]["sha256"]);
   EXPECT_NE(mesh.err, "");
-  EXPECT_EQ(Json::parse(run("check cube.off --report -").out)["schema"], "ccdt.check/1");
-  EXPECT_EQ(Json::parse(run("verify cube.off cube.mesh --report -").out)["ok"], true);
+  EXPECT_EQ(Json::parse(run("check cube.off --json").out)["schema"], "ccdt.check/1");
+  EXPECT_EQ(Json::parse(run("verify cube.off cube.mesh --json").out)["ok"], true);
   EXPECT_EQ(Json::parse(run("mesh missing.off -o a.mesh --report -").out)["kind"], "invalid_input");
+  EXPECT_EQ(Json::parse(run("mesh cube.off -o a.mesh --json").out)["counts"], of_file["counts"]);
   expect_refused(run("mesh cube.off -o - --format mesh --report -"), 2);
+  expect_refused(run("mesh cube.off -o a.mesh --report r.json --json"), 2);
 }
 
 TEST_F(Streams, FromBrokenInputsGiveNothing) {
