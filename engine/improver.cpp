@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -70,7 +71,9 @@ struct Side {
   std::uint32_t tetrahedron;
   std::uint32_t face;  ///< of its `mesh::outward_faces`
 
-  auto operator<=>(const Side&) const = default;
+  bool operator<(const Side& other) const {
+    return std::tie(key, tetrahedron, face) < std::tie(other.key, other.tetrahedron, other.face);
+  }
 };
 
 std::vector<Side> sorted_sides(const mesh::TetMesh& mesh) {
@@ -80,7 +83,7 @@ std::vector<Side> sorted_sides(const mesh::TetMesh& mesh) {
     const auto faces = mesh::outward_faces(mesh.tetrahedra[t]);
     for (std::uint32_t f = 0; f < 4; ++f) sides.push_back({face_key(faces[f][0], faces[f][1], faces[f][2]), t, f});
   }
-  std::ranges::sort(sides);
+  std::sort(sides.begin(), sides.end());
   return sides;
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/base/raw_vector.h"
 
 namespace ccdt {
@@ -47,7 +48,7 @@ class UnionFind {
   }
 
  private:
-  std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
+  AtomicRef<std::uint32_t> at(std::uint32_t i) { return as_atomic(parent_[i]); }
   std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
 
   RawVector<std::uint32_t> parent_;
