@@ -41,12 +41,7 @@ CCDT_ALWAYS_INLINE void prefetch([[maybe_unused]] const void* place) {
 #endif
 }
 
-#ifdef __cpp_lib_atomic_ref
-
-template <class Value>
-using AtomicRef = std::atomic_ref<Value>;
-
-#else
+#ifndef __cpp_lib_atomic_ref
 
 /// What the engine needs of std::atomic_ref, for libraries without it (libc++ before 19).
 template <class Value>
@@ -65,6 +60,9 @@ class AtomicRef {
   Value fetch_or(Value value, std::memory_order order) const {
     return __atomic_fetch_or(&value_, value, static_cast<int>(order));
   }
+  Value fetch_and(Value value, std::memory_order order) const {
+    return __atomic_fetch_and(&value_, value, static_cast<int>(order));
+  }
   bool compare_exchange_weak(Value& expected, Value value, std::memory_order order) const {
     return __atomic_compare_exchange(&value_, &expected, &value, true, static_cast<int>(order), __ATOMIC_RELAXED);
   }
@@ -80,8 +78,12 @@ class AtomicRef {
 
 /// A value that several threads change.
 template <class Value>
-AtomicRef<Value> as_atomic(Value& value) {
+auto as_atomic(Value& value) {
+#ifdef __cpp_lib_atomic_ref
+  return std::atomic_ref<Value>(value);
+#else
   return AtomicRef<Value>(value);
+#endif
 }
 
 /// std::from_chars, also where the library has it for integers only (libc++ before 20).
