@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/platform.h"
 #include "engine/include/ccdt/ccdt.h"
 #include "engine/options/set_option.h"
 
@@ -123,7 +124,7 @@ Point3 point_at(const double* coordinates) {
 ccdt::Progress progress_of(const ccdt_options* options) {
   if (options == nullptr || options->cancel_flag == nullptr) return {};
   return [flag = const_cast<int*>(options->cancel_flag)](std::string_view, std::uint64_t, std::uint64_t) {
-    if (std::atomic_ref(*flag).load() != 0) throw Canceled();
+    if (ccdt::as_atomic(*flag).load() != 0) throw Canceled();
   };
 }
 

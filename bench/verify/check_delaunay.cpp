@@ -7,6 +7,7 @@
 
 #include "bench/verify/exact.h"
 #include "bench/verify/findings.h"
+#include "engine/base/platform.h"
 #include "engine/base/shared_progress.h"
 
 namespace ccdt::verify {
@@ -69,7 +70,7 @@ struct InnerFace {
 /// Prefetches the tetrahedra at a face that will be checked soon.
 void prefetch(const Topology& topology, std::size_t f) {
   for (const std::uint32_t h : topology.half_faces[f])
-    if (h != none) __builtin_prefetch(&topology.mesh.tetrahedra[h / 4]);
+    if (h != none) ccdt::prefetch(&topology.mesh.tetrahedra[h / 4]);
 }
 
 InnerFace inner_face(const Topology& topology, std::size_t f) {

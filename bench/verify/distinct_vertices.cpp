@@ -7,6 +7,7 @@
 
 #include "bench/verify/findings.h"
 #include "bench/verify/point_hash.h"
+#include "engine/base/platform.h"
 #include "engine/base/sort_in_runs.h"
 
 namespace ccdt::verify {
@@ -22,7 +23,7 @@ bool are_distinct(const Topology& topology) {
   const auto enter = [&](std::uint32_t v) {
     for (std::size_t i = PointHash::hash(vertices[v]) & mask;; i = (i + 1) & mask) {
       std::uint32_t there = none;
-      if (std::atomic_ref(table[i]).compare_exchange_strong(there, v, std::memory_order_relaxed)) return;
+      if (as_atomic(table[i]).compare_exchange_strong(there, v, std::memory_order_relaxed)) return;
       if (vertices[there] == vertices[v]) return distinct.store(false, std::memory_order_relaxed);
     }
   };

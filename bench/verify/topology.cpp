@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/base/simplex_map.h"
 
 namespace ccdt::verify {
@@ -85,7 +86,7 @@ void find_entries(const Topology& topology, std::uint32_t vertex, std::vector<En
   entries.resize(3 * std::size_t{first[vertex + 1] - first[vertex]});
   Entry* next = entries.data();
   for (std::uint32_t i = first[vertex]; i < first[vertex + 1]; ++i) {
-    if (i + ahead < items.size()) __builtin_prefetch(&tetrahedra[items[i + ahead]]);
+    if (i + ahead < items.size()) prefetch(&tetrahedra[items[i + ahead]]);
     const std::uint32_t t = items[i];
     const auto& tet = tetrahedra[t];
     unsigned lesser = 0, place = 0, least = 0;

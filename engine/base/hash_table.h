@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/index.h"
+#include "engine/base/platform.h"
 
 namespace ccdt {
 
@@ -93,7 +94,7 @@ class HashTable {
 
   /// Fetches into the cache the place of a key that will be looked up soon.
   void prefetch(const Key& key) const {
-    if (!entries_.empty()) __builtin_prefetch(&entries_[home(key)]);
+    if (!entries_.empty()) ccdt::prefetch(&entries_[home(key)]);
   }
 
   Value* find(const Key& key) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "engine/base/count_work.h"
+#include "engine/base/platform.h"
 #include "engine/base/thread_backend.h"
 
 namespace ccdt {
@@ -169,7 +170,7 @@ class AddOne {
  public:
   /// \return  the number before
   std::uint32_t operator()(std::uint32_t& number) const {
-    return is_alone_ ? number++ : std::atomic_ref(number).fetch_add(1, std::memory_order_relaxed);
+    return is_alone_ ? number++ : as_atomic(number).fetch_add(1, std::memory_order_relaxed);
   }
 
  private:
@@ -183,7 +184,7 @@ class SetBits {
   /// \return  the byte before
   std::uint8_t operator()(std::uint8_t& byte, std::uint8_t bits) const {
     if (is_alone_) return std::exchange(byte, static_cast<std::uint8_t>(byte | bits));
-    const std::atomic_ref shared(byte);
+    const auto shared = as_atomic(byte);
     const std::uint8_t before = shared.load(std::memory_order_relaxed);
     return (before & bits) == bits ? before : shared.fetch_or(bits, std::memory_order_relaxed);
   }

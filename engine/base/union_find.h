@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/base/raw_vector.h"
 
 namespace ccdt {
@@ -24,7 +25,7 @@ class UnionFind {
   std::uint32_t find(std::uint32_t i) {
     for (std::uint32_t parent = load(i); parent != i; parent = load(i)) {
       const std::uint32_t above = load(parent);
-      if (above != parent) at(i).store(above, std::memory_order_relaxed);
+      if (above != parent) as_atomic(parent_[i]).store(above, std::memory_order_relaxed);
       i = above;
     }
     return i;
@@ -37,18 +38,17 @@ class UnionFind {
       j = find(j);
       if (i < j) std::swap(i, j);
       if (is_alone_) {  // no branch depends on the sets: it would be mispredicted
-        at(i).store(j, std::memory_order_relaxed);
+        as_atomic(parent_[i]).store(j, std::memory_order_relaxed);
         return j;
       }
       if (i == j) return i;
       std::uint32_t expected = i;  // no thread has joined it with another in the meantime
-      if (at(i).compare_exchange_strong(expected, j, std::memory_order_relaxed)) return j;
+      if (as_atomic(parent_[i]).compare_exchange_strong(expected, j, std::memory_order_relaxed)) return j;
     }
   }
 
  private:
-  std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
-  std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
+  std::uint32_t load(std::uint32_t i) { return as_atomic(parent_[i]).load(std::memory_order_relaxed); }
 
   RawVector<std::uint32_t> parent_;
   const bool is_alone_ = thread_count() == 1;  ///< a single thread does not pay for atomic joins

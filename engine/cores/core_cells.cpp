@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/cores/split_by_rank.h"
 
@@ -56,7 +57,7 @@ class CellMaker {
     for (std::uint32_t cell = block.first_cell + block.cell_count; cell-- > block.first_cell;)
       for (const std::uint32_t v : cells_[cell].vertices) {
         const std::uint32_t number = first_ + cell;
-        const std::atomic_ref last(d_.cell_at[v]);
+        const auto last = as_atomic(d_.cell_at[v]);
         std::uint32_t before = last.load(std::memory_order_relaxed);
         while ((before == none || before < number) &&
                !last.compare_exchange_weak(before, number, std::memory_order_relaxed)) {

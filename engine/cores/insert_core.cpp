@@ -4,6 +4,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/base/simplex_map.h"
 #include "engine/cores/lattice_core.h"
 #include "engine/delaunay/insert_vertices.h"
@@ -25,7 +26,7 @@ class Joiner {
     std::vector<std::array<std::uint32_t, 3>> faces(border.size());
     parallel_for(border.size(), 4096, [&](std::size_t i) {
       faces[i] = corners(border[i]);
-      for (const std::uint32_t v : faces[i]) std::atomic_ref(on_border_[v]).store(1, std::memory_order_relaxed);
+      for (const std::uint32_t v : faces[i]) as_atomic(on_border_[v]).store(1, std::memory_order_relaxed);
     });
     faces_ = FaceMap(faces, d.vertices.size());
   }
@@ -97,7 +98,7 @@ class Joiner {
 
   /// Several threads may reach the same neighbor; only one of them gets it.
   void remove_neighbors(std::uint32_t c, std::vector<std::uint32_t>& found) {
-    const std::uint8_t walls = std::atomic_ref(walls_[c]).load(std::memory_order_relaxed);
+    const std::uint8_t walls = as_atomic(walls_[c]).load(std::memory_order_relaxed);
     for (std::uint32_t f = 0; f < 4; ++f) {
       if ((walls >> f & 1) != 0) continue;
       const std::uint32_t next = cell_of(d_.cells[c].neighbors[f]);

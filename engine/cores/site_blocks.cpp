@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 
 namespace ccdt::cores {
 namespace {
@@ -45,7 +46,7 @@ bool is_in_sphere_of_cube(const Place& p, const std::array<double, 3>& x) {
 
 /// Several threads may note levels of the same block.
 void note_near_level(SiteBlock& block, std::uint32_t level) {
-  std::atomic_ref(block.near_levels).fetch_or(std::uint64_t{1} << level, std::memory_order_relaxed);
+  as_atomic(block.near_levels).fetch_or(std::uint64_t{1} << level, std::memory_order_relaxed);
 }
 
 }  // namespace
@@ -252,7 +253,7 @@ void SiteMap::discard_shapes(SiteBlock& block, const Place& low, const Place& hi
     for (p[1] = low[1]; p[1] <= high[1]; ++p[1])
       for (p[0] = low[0]; p[0] <= high[0]; ++p[0]) {
         // Several threads may discard shapes of the same block.
-        const std::atomic_ref shapes(block.shapes[SiteBlock::place(p[0], p[1], p[2])]);
+        const auto shapes = as_atomic(block.shapes[SiteBlock::place(p[0], p[1], p[2])]);
         const std::uint8_t core = shapes.load(std::memory_order_relaxed);
         std::uint8_t left = core;
         if ((core & core_point) != 0 && is_in_sphere_at(all_.kind, p, x)) left &= core_cube;

@@ -7,6 +7,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/delaunay/hilbert_order.h"
 #include "engine/delaunay/insert_vertices.h"
 #include "engine/geometry/predicates.h"
@@ -135,7 +136,7 @@ std::span<const std::uint32_t> CellStar::around(std::uint32_t vertex) {
       if (seen_[next] == search_) continue;
       seen_[next] = search_;
       cells_.push_back(next);
-      __builtin_prefetch(&d_.cells[next]);
+      prefetch(&d_.cells[next]);
     }
   }
   work_done.cells_visited += cells_.size();

@@ -8,6 +8,7 @@
 
 #include "engine/base/box.h"
 #include "engine/base/index.h"
+#include "engine/base/platform.h"
 #include "engine/base/progress.h"
 #include "engine/base/raw_vector.h"
 #include "engine/geometry/filters.h"
@@ -103,7 +104,7 @@ struct Delaunay {
   /// Prefetches the cell of a code some places after the i-th, before it is needed. Codes may be `no_neighbor`.
   void prefetch_after(std::size_t i, std::span<const std::uint32_t> codes) const {
     constexpr std::size_t ahead = 16;
-    if (i + ahead < codes.size()) __builtin_prefetch(cells.data() + cell_of(codes[i + ahead]));
+    if (i + ahead < codes.size()) prefetch(cells.data() + cell_of(codes[i + ahead]));
   }
   bool is_dead(std::uint32_t cell) const { return cells[cell].neighbors[0] == no_neighbor; }
   bool is_ghost(std::uint32_t cell) const { return cells[cell].vertices[3] == ghost_vertex; }

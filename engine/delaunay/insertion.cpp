@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "engine/base/count_work.h"
+#include "engine/base/platform.h"
 #include "engine/geometry/predicates.h"
 
 namespace ccdt::delaunay {
@@ -150,7 +151,7 @@ CCDT_ALWAYS_INLINE bool Insertion::grow_cavity(std::uint32_t first) {
     make_room(cavity_.slots, size + 4), make_room(border_.slots, faces + 4);
     // They exist by the time they are needed.
     if (i + 1 < size)
-      for (const std::uint32_t code : cells[cavity_.slots[i + 1]].neighbors) __builtin_prefetch(cells + cell_of(code));
+      for (const std::uint32_t code : cells[cavity_.slots[i + 1]].neighbors) prefetch(cells + cell_of(code));
     const Cell cell = cells[cavity_.slots[i]];
     unsigned open = 0;
     for (unsigned f = 0; f < 4; ++f) open |= unsigned{in_cavity[cell_of(cell.neighbors[f])] == 0} << f;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "engine/base/platform.h"
 #include "engine/base/point.h"
 
 namespace ccdt {
@@ -20,16 +21,6 @@ enum class Sign : std::int8_t { minus = -1, zero = 0, plus = 1, unknown = 2 };
 // Four lanes, which the compiler maps to the registers of the processor. Always inlined, so never passed as arguments.
 using Lanes = double __attribute__((vector_size(32)));
 using IntegerLanes = std::int64_t __attribute__((vector_size(32)));
-#define CCDT_ALWAYS_INLINE inline __attribute__((always_inline))
-
-// Compiles a function once for every x86-64 and once for processors with 256-bit lanes; the program picks when it
-// starts. Signs are the same: neither version contracts to FMA. (The sanitizers' runtimes do not support this.)
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
-    !defined(__SANITIZE_THREAD__)
-#define CCDT_WIDE_LANES __attribute__((target_clones("avx2", "default")))
-#else
-#define CCDT_WIDE_LANES
-#endif
 
 namespace filter {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/base/errors.h"
+#include "engine/base/platform.h"
 
 namespace ccdt::io {
 
@@ -39,7 +40,7 @@ const char* digits_begin(std::string_view word) {
 std::optional<double> parse_number(std::string_view word) {
   const char* end = word.data() + word.size();
   double value = 0;
-  const auto [stop, error] = std::from_chars(digits_begin(word), end, value);
+  const auto [stop, error] = from_chars(digits_begin(word), end, value);
   if (stop != end) return std::nullopt;
   // The number is too large or too small for a double; strtod says which. from_chars has already accepted its form.
   if (error == std::errc::result_out_of_range) return std::strtod(std::string(word).c_str(), nullptr);

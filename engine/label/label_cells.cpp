@@ -9,6 +9,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/base/raw_vector.h"
 #include "engine/front/stuck.h"
 
@@ -55,7 +56,7 @@ FaceBits mark_walls(const delaunay::Delaunay& d, const std::vector<front::FrontF
 }
 
 void note_least(std::uint32_t& least, std::uint32_t i) {
-  const std::atomic_ref shared(least);
+  const auto shared = as_atomic(least);
   std::uint32_t before = shared.load(std::memory_order_relaxed);
   while (i < before && !shared.compare_exchange_weak(before, i, std::memory_order_relaxed)) {
   }
@@ -111,8 +112,8 @@ class RegionFlood {
     std::size_t count = 0;
     for (const std::size_t end = std::min(i + a_few, cells.size()); i < end; ++i) {
       if (i + ahead < cells.size()) {
-        __builtin_prefetch(&d_.cells[cells[i + ahead]]);
-        __builtin_prefetch(&bits_[cells[i + ahead]]);
+        prefetch(&d_.cells[cells[i + ahead]]);
+        prefetch(&bits_[cells[i + ahead]]);
       }
       const std::uint32_t cell = cells[i];
       const unsigned walls = bits_[cell] & 0x0Fu, open = bits_[cell] >> 4;

@@ -7,6 +7,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/index_lists.h"
+#include "engine/base/platform.h"
 #include "engine/base/union_find.h"
 #include "engine/geometry/predicates.h"
 
@@ -147,7 +148,7 @@ class PiercedCellSearch {
     }
     parts_.join(visit.owner, i);
     stack_.push_back(cell);
-    for (const std::uint32_t code : d_.cells[cell].neighbors) __builtin_prefetch(&d_.cells[delaunay::cell_of(code)]);
+    for (const std::uint32_t code : d_.cells[cell].neighbors) prefetch(&d_.cells[delaunay::cell_of(code)]);
   }
 
   /// The side of the plane of missing face i that a vertex is on.

@@ -9,6 +9,7 @@
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 
 namespace ccdt::mesh {
 namespace {
@@ -159,7 +160,7 @@ CollectedMesh collect_tetrahedra(const plc::Plc& plc, const front::FrontResult& 
       bucket.clear();
       const std::size_t first = v == 0 ? 0 : buckets.ends[v - 1];
       for (std::size_t i = first; i < buckets.ends[v]; ++i) {
-        if (i + ahead < last) __builtin_prefetch(&parts[sources[i + ahead]]);
+        if (i + ahead < last) prefetch(&parts[sources[i + ahead]]);
         bucket.push_back(entry_of(parts[sources[i]], sources[i]));
       }
       std::ranges::sort(bucket);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "engine/base/simplex_map.h"
@@ -16,7 +17,7 @@ struct Side {
   std::uint32_t tetrahedron;
   std::uint32_t face;  ///< of its `outward_faces`
 
-  auto operator<=>(const Side&) const = default;
+  bool operator<(const Side& o) const { return std::tie(key, tetrahedron, face) < std::tie(o.key, o.tetrahedron, o.face); }
 };
 
 /// All faces of all tetrahedra; equal ones are side by side.
@@ -27,7 +28,7 @@ inline std::vector<Side> sorted_sides(const TetMesh& mesh) {
     const auto faces = outward_faces(mesh.tetrahedra[t]);
     for (std::uint32_t f = 0; f < 4; ++f) sides.push_back({face_key(faces[f][0], faces[f][1], faces[f][2]), t, f});
   }
-  std::ranges::sort(sides);
+  std::sort(sides.begin(), sides.end());
   return sides;
 }
 

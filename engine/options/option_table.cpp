@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "engine/base/digits.h"
+#include "engine/base/platform.h"
 
 namespace ccdt::options {
 namespace {
@@ -205,7 +206,7 @@ std::vector<MeshOption> make_table() {
 template <class T>
 void read_number(std::string_view text, T& number) {
   T value = {};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && end == text.data() + text.size()) number = value;
 }
 

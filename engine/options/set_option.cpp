@@ -8,6 +8,7 @@
 #include "engine/base/check_arguments.h"
 #include "engine/base/digits.h"
 #include "engine/base/errors.h"
+#include "engine/base/platform.h"
 
 namespace ccdt::options {
 namespace {
@@ -55,7 +56,7 @@ struct ValueCheck {
   void operator()(const FileKind&) const {}
   void operator()(const auto& number) const {
     double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size())
       refuse(option, "'" + std::string(text) + "'", "give a number");
     BoundsCheck{option, value}(number);

@@ -12,6 +12,7 @@
 #include "engine/base/count_work.h"
 #include "engine/base/errors.h"
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/geometry/box_tree.h"
 #include "engine/geometry/predicates.h"
 #include "engine/protection/voronoi_face.h"
@@ -205,9 +206,8 @@ std::vector<std::uint32_t> harmless_points(const Harm& harm, const BoxTree& tree
                                            std::span<const delaunay::DelaunayVertex> vertices) {
   std::vector<std::uint8_t> is_vertex(harm.edge_count.size(), false);
   parallel_for(vertices.size(), 1024, [&](std::size_t v) {
-    tree.for_each_meeting(box_of(vertices[v].point), [&](std::uint32_t i) {
-      std::atomic_ref(is_vertex[i]).store(true, std::memory_order_relaxed);
-    });
+    tree.for_each_meeting(box_of(vertices[v].point),
+                          [&](std::uint32_t i) { as_atomic(is_vertex[i]).store(true, std::memory_order_relaxed); });
   });
   std::vector<std::uint32_t> result;
   for (std::uint32_t i = 0; i < harm.edge_count.size(); ++i)

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <tuple>
 #include <utility>
 
 #include "engine/base/count_work.h"
 #include "engine/base/parallel.h"
+#include "engine/base/platform.h"
 #include "engine/base/sort_in_buckets.h"
 #include "engine/geometry/predicates.h"
 
@@ -21,7 +23,7 @@ struct OpenCellFace {
   FaceKey key;
   std::uint32_t code;
 
-  auto operator<=>(const OpenCellFace&) const = default;
+  bool operator<(const OpenCellFace& other) const { return std::tie(key, code) < std::tie(other.key, other.code); }
 };
 
 FaceKey key_of_face(const std::array<std::uint32_t, 4>& v, std::uint32_t f) {
@@ -105,7 +107,7 @@ void CellComplex::find_last_cells() {
     for (std::size_t i = end; i-- > begin;) {
       const CellId c(i);
       for (const std::uint32_t v : cells_[c].vertices) {
-        const std::atomic_ref last(cell_at_[v]);
+        const auto last = as_atomic(cell_at_[v]);
         CellId before = last.load(std::memory_order_relaxed);
         while ((before.is_none() || before < c) && !last.compare_exchange_weak(before, c, std::memory_order_relaxed)) {
         }
