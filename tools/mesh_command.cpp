@@ -172,9 +172,9 @@ void add_files(CLI::App& verb, MeshCommand& command) {
       ->check(whole_number(1, 1'000'000));
   verb.add_option("--surface-output", command.surface_output,
                   std::string("write the remeshed or repaired surface to this file: ") + surface_endings);
-  add_report(verb,
-             "write a report of the run to this file, even if the run fails or is interrupted (JSON, schema ccdt.run/1)",
-             command.report);
+  add_report(
+      verb, "write a report of the run to this file, even if the run fails or is interrupted (JSON, schema ccdt.run/1)",
+      command.report);
 }
 
 void add_requirements(CLI::App& verb, bench::Requirements& required) {
@@ -234,8 +234,8 @@ sweep::MeshOptionRules mesh_option_rules() {
   add_options(verb, command);
   for (const CLI::Option* option : verb.get_options())
     if (!option->get_lnames().empty()) rules.names.push_back(option->get_lnames().front());
-  for (const char* other : {"output", "input-format", "format", "order", "partitions", "surface-output", "report", "json",
-                            "repair", "markers", "mesher", "require-dihedral", "require-r"})
+  for (const char* other : {"output", "input-format", "format", "order", "partitions", "surface-output", "report",
+                            "json", "repair", "markers", "mesher", "require-dihedral", "require-r"})
     std::erase(rules.names, other);
   rules.fault_of_value = [](const std::string& name, const std::string& value) {
     return fault_of({"--" + name, value}, false);

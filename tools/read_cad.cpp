@@ -26,10 +26,10 @@ plc::InputPlc read_cad(const std::filesystem::path& file) {
     throw InputError("no such file", io::place_in(file.string()), "check the path and the spelling of the name");
   const baselines::TemporaryFolder folder;
   const std::filesystem::path surface = folder.path() / "surface.stl", log = folder.path() / "log";
-  const baselines::ProcessResult ended = baselines::run_program(
-      {gmsh->string(), std::filesystem::absolute(file).string(), "-2", "-clcurv", "36", "-setnumber",
-       "Mesh.StlOneSolidPerSurface", "1", "-o", surface.string()},
-      {.folder = folder.path(), .log = log, .limits = baselines::Limits{}});
+  const baselines::ProcessResult ended =
+      baselines::run_program({gmsh->string(), std::filesystem::absolute(file).string(), "-2", "-clcurv", "36",
+                              "-setnumber", "Mesh.StlOneSolidPerSurface", "1", "-o", surface.string()},
+                             {.folder = folder.path(), .log = log, .limits = baselines::Limits{}});
   if (ended.status != baselines::RunStatus::ok || !std::filesystem::exists(surface))
     throw InputError("Gmsh could not triangulate it: " + baselines::last_lines(log), io::place_in(file.string()),
                      "open it in Gmsh, or export a surface, such as STL, from the CAD program");

@@ -17,7 +17,9 @@ struct Side {
   std::uint32_t tetrahedron;
   std::uint32_t face;  ///< of its `outward_faces`
 
-  bool operator<(const Side& o) const { return std::tie(key, tetrahedron, face) < std::tie(o.key, o.tetrahedron, o.face); }
+  bool operator<(const Side& o) const {
+    return std::tie(key, tetrahedron, face) < std::tie(o.key, o.tetrahedron, o.face);
+  }
 };
 
 /// All faces of all tetrahedra; equal ones are side by side.

@@ -50,7 +50,7 @@ class Verification:
 
 
 def verify(mesh, input, /, *, flatness=_engine.usual_flatness, constrained_delaunay="claimed", surface="same", within=None,
-           boundary="keep", lists="all", threads=None, progress=None):
+           boundary="keep", periodic="none", lists="all", threads=None, progress=None):
     """Checks exactly that a mesh, made by any mesher, is right for its input.
 
     It decides by CGAL's exact kernel and shares no predicate with the engine. The verdict is that of the program
@@ -65,6 +65,7 @@ def verify(mesh, input, /, *, flatness=_engine.usual_flatness, constrained_delau
         within: the mesh has its own surface, which is nowhere farther than this from that of the input
         boundary: where the input's vertices must be: "keep" (where they were), or "slide" (those inside flat facets
             and straight segments may have moved along them)
+        periodic: axes along which opposite sides of the mesh must have the same faces, such as "x" or "xyz"
         lists: what the mesh must list: "all" (faces on facets, edges with markers), or "tetrahedra" alone
         threads: largest number of threads; default: all cores
         progress: as for ccdt.mesh
@@ -92,5 +93,5 @@ def verify(mesh, input, /, *, flatness=_engine.usual_flatness, constrained_delau
     else:
         given = mesh._mesh
     found = _verify.verify(as_surface(input)._plc, given, flatness, constrained_delaunay, surface, within, boundary,
-                           lists, threads or 0, progress)
+                           periodic, lists, threads or 0, progress)
     return Verification(**{**found, "checks": [Check(*check) for check in found["checks"]]})

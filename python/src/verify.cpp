@@ -28,11 +28,13 @@ Enum chosen(const std::string& option, const std::string& name) {
 
 py::dict verify_mesh(const plc::InputPlc& input, const mesh::TetMesh& mesh, double flatness,
                      const std::string& constrained_delaunay, const std::string& surface, std::optional<double> within,
-                     const std::string& boundary, const std::string& lists, unsigned threads, py::object progress) {
+                     const std::string& boundary, const std::string& periodic, const std::string& lists,
+                     unsigned threads, py::object progress) {
   verify::VerifyOptions options{.flatness = flatness};
   options.delaunay = chosen<verify::VerifyOptions::Delaunay>("constrained_delaunay", constrained_delaunay);
   options.boundary = chosen<verify::VerifyOptions::Boundary>("boundary", boundary);
   options.surface = chosen<verify::VerifyOptions::Surface>("surface", surface);
+  options.periodic = chosen<plc::Periodicity>("periodic", periodic);
   options.lists = chosen<verify::VerifyOptions::Lists>("lists", lists);
   options.within = within;
   if (within) options.surface = verify::VerifyOptions::Surface::own;

@@ -93,6 +93,13 @@ def test_options_are_those_of_the_program(mesh, solid):
     assert ccdt.verify(mesh, solid, threads=1) == ccdt.verify(mesh, solid, threads=3)
 
 
+def test_opposite_sides_of_a_periodic_mesh_are_equal(solid):
+    box = ccdt.Surface(solid.vertices, solid.triangles)
+    free = ccdt.mesh(box, surface="refine", edge_length=0.2)
+    assert ccdt.verify(free, box).ok and not ccdt.verify(free, box, periodic="xyz").ok
+    assert ccdt.verify(ccdt.mesh(box, surface="refine", edge_length=0.2, periodic="xyz"), box, periodic="xyz").ok
+
+
 @pytest.mark.parametrize("options", [{"boundary": "move"}, {"surface": "other"}, {"lists": ""}, {"within": 0},
                                      {"constrained_delaunay": "maybe"}, {"flatness": -1}, {"threads": 0}])
 def test_values_that_an_option_cannot_have_are_errors_of_the_input(mesh, solid, options):

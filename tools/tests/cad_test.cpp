@@ -3,6 +3,7 @@
 
 #include "baselines/external_program.h"
 #include "baselines/process.h"
+#include "engine/io/files.h"
 #include "engine/io/tet_mesh_files.h"
 #include "tools/tests/program.h"
 
