@@ -24,7 +24,7 @@ static_assert(std::atomic<const char*>::is_always_lock_free && std::atomic<pid_t
 bool write_all(int descriptor, const char* text) {
   for (std::size_t left = std::strlen(text); left > 0;) {
     const ssize_t written = write(descriptor, text, left);
-    if (written < 0) return false;
+    if (written <= 0) return false;
     text += written;
     left -= static_cast<std::size_t>(written);
   }
@@ -48,6 +48,10 @@ LastRecord::LastRecord(const std::string& file) : file_(file) {
 }
 
 LastRecord::~LastRecord() {
+  disarm();
+}
+
+void LastRecord::disarm() {
   owner = 0;
 }
 

@@ -22,6 +22,8 @@ class LastRecord {
 
   /// From now on, this is known of the run.
   void set(const bench::RunRecord& record);
+  /// From now on, a signal leaves no report: the run writes its own.
+  static void disarm();
   /// The run is now in this stage.
   void enter(std::string_view stage);
 

@@ -103,6 +103,7 @@ bool run(MeshCommand command) {
   if (command.options.threads == 0 && is_small(command)) command.options.threads = 1;
   bench::RunRecord record = begin_record(command);
   const auto write_report = [&] {
+    LastRecord::disarm();
     if (!command.report.empty()) write_text(command.report, bench::to_json(record));
   };
   LastRecord last(command.report);

@@ -25,17 +25,21 @@ plc::InputPlc read_cad(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file))
     throw InputError("no such file", io::place_in(file.string()), "check the path and the spelling of the name");
   const baselines::TemporaryFolder folder;
-  const std::filesystem::path surface = folder.path() / "surface.stl", log = folder.path() / "log";
+  const std::filesystem::path part = folder.path() / ("part" + io::lower_ending(file)),
+                              surface = folder.path() / "surface.stl", log = folder.path() / "log";
+  std::filesystem::copy_file(file, part);
   const baselines::ProcessResult ended =
-      baselines::run_program({gmsh->string(), std::filesystem::absolute(file).string(), "-2", "-clcurv", "36",
-                              "-setnumber", "Mesh.StlOneSolidPerSurface", "1", "-o", surface.string()},
-                             {.folder = folder.path(), .log = log, .limits = baselines::Limits{}});
+      baselines::run_program({gmsh->string(), part.string(), "-2", "-clcurv", "36", "-setnumber",
+                              "Mesh.StlOneSolidPerSurface", "1", "-o", surface.string()},
+                             {.folder = folder.path(), .log = log, .limits = baselines::Limits{.seconds = 600}});
+  if (ended.kind == baselines::FailureKind::timeout)
+    throw LimitError("Gmsh did not triangulate it within ten minutes", io::place_in(file.string()),
+                     "export a surface, such as STL, from the CAD program");
   if (ended.status != baselines::RunStatus::ok || !std::filesystem::exists(surface))
     throw InputError("Gmsh could not triangulate it: " + baselines::last_lines(log), io::place_in(file.string()),
                      "open it in Gmsh, or export a surface, such as STL, from the CAD program");
   plc::InputPlc plc = io::read_plc(surface);
   plc.name = file.string();
-  plc.notes.emplace_back("Gmsh made the triangles, with 36 edges around a circle");
   return plc;
 }
 

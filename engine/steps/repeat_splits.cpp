@@ -15,7 +15,7 @@ bool repeat_splits(const protection::SegmentChains& chains, folds::SurfaceProtec
   if (!repeated) return false;
   std::vector<Point3> points = plc.vertices;
   points.insert(points.end(), repeated->points.begin(), repeated->points.end());
-  protector.restart(*tetrahedralize_vertices(points, run), std::move(repeated->chains));
+  protector.restart(tetrahedralize_vertices(points, run).value(), std::move(repeated->chains));
   return true;
 }
 

@@ -18,6 +18,9 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
 The source code of ccdt itself is under this license:\n\n")
     string(APPEND license "\n${agpl}")
   endif()
+  if(component MATCHES "^ccdt_(program|python_module)$")
+    string(APPEND license "\nThe verifier contains parts of CGAL under the LGPL-3+ (/usr/share/common-licenses/LGPL-3 and GPL-3).\n")
+  endif()
   file(WRITE ${doc}/copyright "${license}")
   file(WRITE ${doc}/changelog "${package} (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 

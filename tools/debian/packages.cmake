@@ -4,7 +4,8 @@
 #   libccdt0.1, libccdt-dev                                 the library for C; it and the engine for C++, for development
 #   python3-ccdt                                            the package for Python, with Debian's libraries
 #
-# The last three are made of the engine alone, so they are the same with and without the baselines.
+# The last three are the same with and without the baselines. The program and the module for Python have the verifier,
+# which is made with parts of CGAL under the LGPL.
 set(program_package ccdt)
 if(CCDT_WITH_TETGEN)
   set(CPACK_CCDT_PROGRAM_LICENSE "This variant contains TetGen. As a whole it is under the AGPL-3+.")
@@ -17,7 +18,7 @@ endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_PACKAGE_CONTACT "the ccdt authors <ccdt@users.noreply.github.com>" CACHE STRING "The maintainer of the packages")
+set(CPACK_PACKAGE_CONTACT "$ENV{CCDT_MAINTAINER}")  # set by tools/release
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/package)
 set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/finish.cmake)
@@ -63,7 +64,7 @@ endif()
 if(CCDT_BUILD_PYTHON)
   ccdt_debian_package(ccdt_python_module python3-ccdt python
     "The module ccdt for Python, with arrays of numpy: it reads, checks, repairs,"
-    "meshes, improves and writes.")
+    "meshes, improves, verifies and writes.")
   find_package(Python REQUIRED COMPONENTS Interpreter)
   math(EXPR next_python "${Python_VERSION_MINOR} + 1")
   set(CPACK_DEBIAN_CCDT_PYTHON_MODULE_PACKAGE_DEPENDS

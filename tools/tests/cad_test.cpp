@@ -35,6 +35,9 @@ TEST_F(Program, CadFilesAreReadByGmsh) {
   }
   EXPECT_NEAR(volume, 4 * (40 * 20 - M_PI * 25), 4);
   EXPECT_EQ(run("check plate.step").exit_code, 0);
+  setenv("GMSH", "/nowhere", 1);
+  EXPECT_EQ(run("check plate.step").exit_code, 3);
+  unsetenv("GMSH");
   EXPECT_EQ(run("verify plate.step plate.vtu --within 0.01").exit_code, 0);
 }
 
@@ -47,13 +50,15 @@ TEST_F(Program, DamagedCadFilesAreRefused) {
   EXPECT_EQ(run("mesh missing.step -o part.vtu").exit_code, 3);
 }
 
-TEST_F(Program, CadFilesNeedGmsh) {
-  io::OutputFile file(work() / "part.step");
-  file << "ISO-10303-21;\n";
-  file.commit();
-  setenv("GMSH", "/nowhere", 1);
-  EXPECT_EQ(run("mesh part.step -o part.vtu").exit_code, 3);
-  unsetenv("GMSH");
+TEST_F(Program, FilesBesideCadFilesRunNothing) {
+  if (!write_plate(work())) GTEST_SKIP() << "there is no Gmsh";
+  for (const char* name : {"plate.step.opt", "plate.opt"}) {
+    io::OutputFile options(work() / name);
+    options << "SystemCall \"touch '" << (work() / "touched").string() << "'\";\n";
+    options.commit();
+  }
+  EXPECT_EQ(run("check plate.step").exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(work() / "touched"));
 }
 
 }  // namespace
