@@ -58,7 +58,8 @@ void LastRecord::disarm() {
 void LastRecord::set(const bench::RunRecord& record) {
   if (file_.empty()) return;
   bench::RunRecord ended = record;
-  ended.set_failure(baselines::FailureKind::interrupted, std::string("ended in the stage '") + place_of_stage + "'");
+  ended.set_failure(baselines::FailureKind::interrupted, "a signal ended it");
+  ended.stage = place_of_stage;
   const std::string text = bench::to_json(ended);
   const std::size_t place = text.rfind(place_of_stage);
   owner = 0;

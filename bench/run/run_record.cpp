@@ -129,11 +129,11 @@ constexpr auto fields_after_seconds =
                field_if_any("mesh_fingerprint", &RunRecord::mesh_fingerprint),
                field("largest_rounding", &RunRecord::largest_rounding), field("status", &RunRecord::status),
                field_if_any("kind", &RunRecord::kind), field_if_any("reason", &RunRecord::reason),
-               field_if_any("case", &RunRecord::case_id), field_if_any("number", &RunRecord::number),
-               field_if_any("verification", &RunRecord::verification), field_if_any("repaired", &RunRecord::repaired),
-               field_if_any("surface", &RunRecord::surface_change), field_if_any("required", &RunRecord::required),
-               field_if_any("missed", &RunRecord::missed), field_if_any("notes", &RunRecord::notes),
-               field_if_any("samples", &RunRecord::samples));
+               field_if_any("stage", &RunRecord::stage), field_if_any("case", &RunRecord::case_id),
+               field_if_any("number", &RunRecord::number), field_if_any("verification", &RunRecord::verification),
+               field_if_any("repaired", &RunRecord::repaired), field_if_any("surface", &RunRecord::surface_change),
+               field_if_any("required", &RunRecord::required), field_if_any("missed", &RunRecord::missed),
+               field_if_any("notes", &RunRecord::notes), field_if_any("samples", &RunRecord::samples));
 
 Json options_json(const RunRecord& record) {
   Json options = Json::object();

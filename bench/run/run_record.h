@@ -61,6 +61,7 @@ struct RunRecord {
   baselines::RunStatus status = baselines::RunStatus::ok;
   std::optional<baselines::FailureKind> kind;  ///< of a failure; older programs did not write it
   std::string reason;                          ///< why the status is not ok
+  std::string stage;                           ///< in which a signal ended the run; otherwise empty
   std::string case_id;                         ///< the case of this run; empty outside a sweep
   std::optional<int> number;                   ///< of the run among those of its case, from 0
   std::optional<VerifiedMesh> verification;

@@ -138,7 +138,7 @@ TEST_F(Waiting, RunThatIsInterruptedSaysInWhichStage) {
   EXPECT_EQ(end("mesh - -o a.mesh --report r.json", SIGINT, reads), 130);
   EXPECT_EQ(report()["status"], "failed");
   EXPECT_EQ(report()["kind"], "interrupted");
-  EXPECT_NE(report()["reason"].get<std::string>().find("'read'"), std::string::npos) << report()["reason"];
+  EXPECT_EQ(report()["stage"], "read");
 }
 
 TEST_F(Waiting, RunWhoseReaderIsSlowLeavesNoFileWhenItIsEnded) {
@@ -150,7 +150,7 @@ TEST_F(Waiting, RunWhoseReaderIsSlowLeavesNoFileWhenItIsEnded) {
   };
   EXPECT_EQ(end("mesh large.off -o - --format mesh --report r.json 2>/dev/null", SIGTERM, writes), 143);
   EXPECT_EQ(report()["kind"], "interrupted");
-  EXPECT_NE(report()["reason"].get<std::string>().find("'write'"), std::string::npos) << report()["reason"];
+  EXPECT_EQ(report()["stage"], "write");
   EXPECT_EQ(file_count(), before + 1);
 }
 
