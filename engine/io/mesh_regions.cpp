@@ -18,6 +18,7 @@ namespace ccdt::io {
 namespace {
 
 using Corners = std::array<Point3, 3>;
+using Face = std::array<std::uint32_t, 3>;
 
 double volume_of(const mesh::TetMesh& mesh, std::uint32_t tetrahedron) {
   const auto& [a, b, c, d] = mesh.tetrahedra[tetrahedron];
@@ -32,7 +33,7 @@ Point3 center_of(const mesh::TetMesh& mesh, std::uint32_t tetrahedron) {
 }
 
 /// The faces of each connected piece of a closed surface. Pieces that touch along an edge stay apart.
-std::vector<std::vector<std::uint32_t>> connected_pieces(std::span<const std::array<std::uint32_t, 3>> faces) {
+std::vector<std::vector<std::uint32_t>> connected_pieces(std::span<const Face> faces) {
   std::vector<AtEdge> edges;
   for (std::uint32_t f = 0; f < faces.size(); ++f)
     for (std::size_t i = 0; i < 3; ++i) edges.push_back({edge_key(faces[f][i], faces[f][(i + 1) % 3]), f});
@@ -58,35 +59,8 @@ double enclosed(std::span<const std::uint32_t> piece, std::span<const Corners> c
   return sum;
 }
 
-}  // namespace
-
-std::vector<plc::InputPlc::RegionSeed> bound_regions(mesh::TetMesh& mesh) {
-  const FaceMap listed(mesh.faces, mesh.vertices.size());
-  const std::vector<mesh::Side> sides = mesh::sorted_sides(mesh);
-  UnionFind parts(mesh.tetrahedra.size());
-  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-    while (end < sides.size() && sides[end].key == sides[i].key) ++end;
-    const auto region = [&](std::size_t side) { return attribute_of(mesh.regions, sides[side].tetrahedron); };
-    const auto& [a, b, c] = sides[i].key;
-    if (listed.find(VertexId(a), VertexId(b), VertexId(c)).index != none) continue;
-    if (end - i > 1 && region(i) == region(i + 1))
-      parts.join(sides[i].tetrahedron, sides[i + 1].tetrahedron);
-    else
-      mesh.faces.push_back(mesh::outward_faces_of(mesh, sides[i].tetrahedron)[sides[i].face]);
-  }
-  mesh.face_markers.resize(mesh.faces.size(), 0);
-  std::map<std::uint32_t, std::uint32_t> largest;  // tetrahedron of each part
-  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
-    std::uint32_t& found = largest.try_emplace(parts.find(t), t).first->second;
-    if (volume_of(mesh, t) > volume_of(mesh, found)) found = t;
-  }
-  std::vector<plc::InputPlc::RegionSeed> seeds;
-  for (const auto& [part, t] : largest) seeds.push_back({center_of(mesh, t), attribute_of(mesh.regions, t)});
-  return seeds;
-}
-
-std::vector<Point3> cavity_seeds(const mesh::TetMesh& mesh) {
-  const auto faces = mesh::boundary_faces(mesh);
+/// A point in each cavity.
+std::vector<Point3> cavity_seeds(const mesh::TetMesh& mesh, std::span<const Face> faces) {
   std::vector<Corners> corners;
   for (const auto& [a, b, c] : faces) corners.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
   const BoxTree tree(corners, [](const Corners& t) { return bounding_box(t); });
@@ -105,6 +79,36 @@ std::vector<Point3> cavity_seeds(const mesh::TetMesh& mesh) {
     });
     if (nearest < 1) seeds.push_back(center + 0.5 * nearest * way.along);
   }
+  return seeds;
+}
+
+}  // namespace
+
+MeshSeeds bound_regions(mesh::TetMesh& mesh) {
+  const FaceMap listed(mesh.faces, mesh.vertices.size());
+  const std::vector<mesh::Side> sides = mesh::sorted_sides(mesh);
+  UnionFind parts(mesh.tetrahedra.size());
+  std::vector<Face> boundary;
+  for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+    while (end < sides.size() && sides[end].key == sides[i].key) ++end;
+    const auto region = [&](std::size_t side) { return attribute_of(mesh.regions, sides[side].tetrahedron); };
+    const Face face = mesh::outward_faces_of(mesh, sides[i].tetrahedron)[sides[i].face];
+    if (end - i == 1) boundary.push_back(face);
+    const auto& [a, b, c] = sides[i].key;
+    if (listed.find(VertexId(a), VertexId(b), VertexId(c)).index != none) continue;
+    if (end - i > 1 && region(i) == region(i + 1))
+      parts.join(sides[i].tetrahedron, sides[i + 1].tetrahedron);
+    else
+      mesh.faces.push_back(face);
+  }
+  mesh.face_markers.resize(mesh.faces.size(), 0);
+  std::map<std::uint32_t, std::uint32_t> largest;  // tetrahedron of each part
+  for (std::uint32_t t = 0; t < mesh.tetrahedra.size(); ++t) {
+    std::uint32_t& found = largest.try_emplace(parts.find(t), t).first->second;
+    if (volume_of(mesh, t) > volume_of(mesh, found)) found = t;
+  }
+  MeshSeeds seeds{{}, cavity_seeds(mesh, boundary)};
+  for (const auto& [part, t] : largest) seeds.regions.push_back({center_of(mesh, t), attribute_of(mesh.regions, t)});
   return seeds;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 #include "engine/mesh/tet_mesh.h"
@@ -9,12 +7,13 @@
 
 namespace ccdt::io {
 
-/// Adds to the faces of a mesh those on its boundary and between its regions, with marker 0.
-///
-/// \return  of its tetrahedra: a seed in each part that these faces bound, with its attribute
-std::vector<plc::InputPlc::RegionSeed> bound_regions(mesh::TetMesh& mesh);
+/// Seeds that tell which parts of space the tetrahedra of a mesh fill.
+struct MeshSeeds {
+  std::vector<plc::InputPlc::RegionSeed> regions;  ///< one in each part that the faces bound
+  std::vector<Point3> cavities;                    ///< one in each
+};
 
-/// A point in each cavity of the tetrahedra.
-std::vector<Point3> cavity_seeds(const mesh::TetMesh& mesh);
+/// Adds to the faces of a mesh those on its boundary and between its regions, with marker 0.
+MeshSeeds bound_regions(mesh::TetMesh& mesh);
 
 }  // namespace ccdt::io

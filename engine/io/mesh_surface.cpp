@@ -1,6 +1,7 @@
 #include "engine/io/mesh_surface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "engine/io/formats.h"
 #include "engine/io/mesh_regions.h"
@@ -32,8 +33,9 @@ plc::InputPlc surface_of(mesh::TetMesh mesh) {
   plc::InputPlc plc;
   if (!mesh.tetrahedra.empty()) {
     plc.inside = plc::InputPlc::Inside::seeds;
-    plc.regions = bound_regions(mesh);
-    plc.holes = cavity_seeds(mesh);
+    MeshSeeds seeds = bound_regions(mesh);
+    plc.regions = std::move(seeds.regions);
+    plc.holes = std::move(seeds.cavities);
     plc.notes.push_back("the file has tetrahedra, so the boundaries of their regions were used; tetrahedra: " +
                         std::to_string(mesh.tetrahedra.size()));
   }
